@@ -162,9 +162,6 @@ typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_point
  * all calls for one pg_cells share a workspace. */
 pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
 pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
-/* After pg_cut_facet, leaves out of its points (from number `first` on) those of slivers, as pg_cut_cell does
- * of its own: pieces so thin that rounding decides whether they are there. */
-void      pg_cut_facet_slivers (pg_cut_points *out, const pg_cells *cells, size_t first);
 /* The part of a face (number -x +x -y +y -z +z) of a cell, of any kind in a lattice, that has the body on
  * both of its sides: where two cells are connected. dim > 1; normals stay zero. */
 pg_status pg_cut_face   (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order);

@@ -200,11 +200,9 @@ int       cut_work_faceted (const cut_work *w);
  * The places are the centroids of what lies in the boxes of a grid, the weights positive; what does that to
  * the points of a mirrored cell gives the mirrored points. Where it fails the points stay. PG_E_MEMORY. */
 pg_status cut_compress    (pg_cut_points *points, size_t first, int dim);
-/* Leaves out the points of slivers as thin as rounding (of the cell, cut_work_rounding): rounding decides
- * whether there are any, and they carry nothing. */
-void      cut_leave_slivers (pg_cut_points *points, size_t first, int dim, double rounding);
-/* Of coordinates and of the computation, in the local coordinates of the present cell. */
-double    cut_work_rounding (const cut_work *w);
+/* leave 1: points from now on without those of slices and pieces of lines no more than a hundred times as
+ * thick as the rounding of places, which decides whether these are there. 0: of all. */
+void      cut_work_leave_slivers (cut_work *w, int leave);
 /* How often the search for places where three surfaces meet was given up (cut_solve). Surfaces that share a
  * curve meet along all of it, and nothing is lost there; lost corners show in cut_work_unsettled. */
 size_t    cut_work_given_up (const cut_work *w);

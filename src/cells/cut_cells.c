@@ -497,25 +497,27 @@ pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, i
 {
     pg_status status = PG_OK;
     size_t first = out->n;
+    cut_work *work = cells->cut->work;
     PG_TRY (enter (cells, cell));
-    PG_TRY (cut_work_points (cells->cut->work, -1, 0, finer (cells, order), out));
-    if (cut_work_faceted (cells->cut->work)) PG_TRY (cut_compress (out, first, cells->dim));
-    else cut_leave_slivers (out, first, cells->dim, cut_work_rounding (cells->cut->work));
+    cut_work_leave_slivers (work, !cut_work_faceted (work));
+    PG_TRY (cut_work_points (work, -1, 0, finer (cells, order), out));
+    if (cut_work_faceted (work)) PG_TRY (cut_compress (out, first, cells->dim));
 done:
+    cut_work_leave_slivers (work, 0);
     return status;
 }
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
-    pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
-    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet],
-                                              cells->cut->part[facet], finer (cells, order), out)
-                           : status;
-}
-
-void pg_cut_facet_slivers (pg_cut_points *out, const pg_cells *cells, size_t first)
-{
-    cut_leave_slivers (out, first, cells->dim, cut_work_rounding (cells->cut->work));
+    pg_status status = PG_OK;
+    cut_work *work = cells->cut->work;
+    PG_TRY (enter (cells, (size_t) cells->facet_cell[facet]));
+    cut_work_leave_slivers (work, !cut_work_faceted (work));
+    PG_TRY (cut_work_points (work, cells->facet_surface[facet], cells->cut->part[facet],
+                             finer (cells, order), out));
+done:
+    cut_work_leave_slivers (work, 0);
+    return status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)

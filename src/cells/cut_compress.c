@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fewer quadrature points: none of slivers, and fewer with the same moments. Where the pieces of a surface
- * are many, so are the slices between their edges, and a cell gets thousands of points; every one of them
- * would see a hundred nodes.
+ * Fewer quadrature points with the same moments. Where the pieces of a surface are many, so are the slices
+ * between their edges, and a cell gets thousands of points; every one of them would see a hundred nodes.
  *
  * The box of the points is divided into m^dim boxes. All points in one become one, at their centroid and with
  * their weight together: constants and linear functions keep their sums. The weights then change in the
@@ -15,8 +14,6 @@
 
 /* Polynomials of degree 3 in space; fewer points than FEW are left alone; finest grid. */
 enum { MOMENTS = 20, FEW = 40, FINEST = 6 };
-/* A piece of a cell thinner than so many times the rounding may be there by rounding alone. */
-static const double SLIVER = 100;
 
 /* Values of the polynomials of degree 3 at z; returns how many: 4, 10, 20. */
 static int polynomials (int dim, const double *z, double *p)
@@ -116,19 +113,4 @@ pg_status cut_compress (pg_cut_points *all, size_t first, int dim)
 done:
     pg_cut_points_clear (&few);
     return status;
-}
-
-void cut_leave_slivers (pg_cut_points *p, size_t first, int dim, double rounding)
-{
-    size_t wide = (size_t) dim, n = first;
-    double most = 0;
-    for (size_t i = first; i < p->n; i++) most = fmax (most, p->weight[i]);
-    for (size_t i = first; i < p->n; i++) {
-        if (p->weight[i] < SLIVER * rounding * most) continue;
-        p->weight[n] = p->weight[i];
-        memmove (p->x + n * wide, p->x + i * wide, wide * sizeof *p->x);
-        memmove (p->normal + n * wide, p->normal + i * wide, wide * sizeof *p->normal);
-        n++;
-    }
-    p->n = n;
 }

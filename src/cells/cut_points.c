@@ -35,6 +35,8 @@ struct cut_work {
      * interval; the face of the cell to which the walk is confined, -1: none; the part between dividing
      * half-planes. */
     int    surface, order, face, part;
+    /* Thinner slices and pieces of lines, local, are passed over (cut_work_leave_slivers). */
+    double thin;
     /* Number of surfaces near the cell without and with the dividing half-planes, which come last. */
     size_t real, all;
     /* Receives the points. */
@@ -245,10 +247,10 @@ static int line_roots (cut_work *w, const cut_quadric *q)
     return m;
 }
 
-/* Gauss points on the piece from..to of the line; nothing where it is empty. */
+/* Gauss points on the piece from..to of the line; nothing where it is empty, or thin. */
 static void fill_piece (cut_work *w, double from, double to, double weight)
 {
-    for (int g = 0; to > from && g < w->order; g++)
+    for (int g = 0; to - from > w->thin && g < w->order; g++)
         emit (w, from + (to - from) * rule_x (w, w->order)[g], weight * (to - from) * rule_w (w, w->order)[g],
               NULL);
 }
@@ -459,7 +461,7 @@ static void walk (cut_work *w, int k, double weight)
     for (size_t i = 0; i <= s->level[k].hard.n; i++) {
         double b = i < s->level[k].hard.n ? s->level[k].hard.at[i] : 1;
         if (1 - b < s->snap) b = 1;                    /* what splits beside a face splits on it */
-        if (b - a < (a == -1 ? s->snap : fmax (1e-12, s->rounding))) continue;
+        if (b - a < fmax (w->thin, a == -1 ? s->snap : fmax (1e-12, s->rounding))) continue;
         double left = nearest (&s->level[k].soft, a, 1, b - a, s->rounding),
                right = nearest (&s->level[k].soft, b, 0, b - a, s->rounding), middle = 0.5 * (a + b);
         if (!isnan (left) && !isnan (right)) {
@@ -473,6 +475,12 @@ static void walk (cut_work *w, int k, double weight)
 size_t cut_work_half_planes (const cut_work *w)
 {
     return w->all - w->real < CUT_HALF_PLANES ? w->all - w->real : CUT_HALF_PLANES;
+}
+
+void cut_work_leave_slivers (cut_work *w, int leave)
+{
+    const double sliver = 100;                         /* times the rounding */
+    w->thin = leave ? sliver * w->slices.rounding : 0;
 }
 
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out)
@@ -520,7 +528,6 @@ double cut_work_size (const cut_work *w)
 }
 
 double cut_work_unsettled (const cut_work *w) { return w->unsettled; }
-double cut_work_rounding (const cut_work *w) { return w->slices.rounding; }
 size_t cut_work_given_up (const cut_work *w) { return w->slices.given_up; }
 
 /* ---- to rounding --------------------------------------------------------------------------------------- */

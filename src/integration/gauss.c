@@ -39,7 +39,6 @@ static pg_status find_cut (mesh *m)
         if (m->kind[e] != PG_CUT) continue;
         PG_TRY (m->facets ? pg_cut_facet (&m->cut, m->cells, e, m->order)
                           : pg_cut_cell (&m->cut, m->cells, e, m->order));
-        if (m->facets) pg_cut_facet_slivers (&m->cut, m->cells, m->first[k]);
         m->first[++k] = m->cut.n;
     }
 done:

@@ -19,6 +19,7 @@ typedef struct {
     void     *self;
     pg_state *state;
     size_t    n, dim, stride, ndof, nv;
+    int       turns;                                   /* rotations of points have a stiffness */
     const pg_operator *op;
     pg_operator product;  /* by the matrix that was factored, which is cheaper */
     patch_factor *factor;                              /* NULL: by conjugate gradients */
@@ -64,7 +65,7 @@ static void find_middle (probe *t)
 typedef struct { double p[6], R[6][3]; } motion;
 
 /* Motion m about the middle: linear ones of unit strain (engineering shear; nv of them), then translations
- * and turns. */
+ * and turns, with the rotations of points unless these are held. */
 static motion motion_of (const probe *t, size_t m)
 {
     static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
@@ -78,7 +79,7 @@ static motion motion_of (const probe *t, size_t m)
         size_t turn = m - t->nv - t->dim;
         const int *of = pair[3 + turn];                /* xy, yz, zx */
         d.R[of[0]][of[1]] = -1, d.R[of[1]][of[0]] = 1;
-        d.p[t->dim + (t->dim == 2 ? 0 : (turn + 2) % 3)] = t->p->cloud.h;
+        if (t->turns) d.p[t->dim + (t->dim == 2 ? 0 : (turn + 2) % 3)] = t->p->cloud.h;
     }
     return d;
 }
@@ -540,7 +541,10 @@ static void measure_unit_strains (probe *t)
         }
     }
     t->op->diagonal (t->op->context, t->inverse);
-    for (size_t i = 0; i < t->ndof; i++) t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
+    for (size_t i = 0; i < t->ndof; i++) {
+        t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
+        t->turns |= i % t->stride >= t->dim && t->inverse[i] > 0;
+    }
 }
 
 /* Also of a probe that was made in part only. */

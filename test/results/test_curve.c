@@ -308,7 +308,8 @@ static void displacements_are_those_of_the_facets (void **state)
         "off, at: {levels: 1}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: "
         "top, %s}]\n";
     static const char *const head[] = { "displacement: {y: 0.02}",
-                                        "displacement: {y: 0.02}, essential: penalty", "traction: {y: 0.02}" };
+                                        "displacement: {y: 0.02}, essential: penalty",
+                                        "traction: {y: 0.02}" };
     char text[1024];
     (void) state;
     for (int k = 0; k < 3; k++)
