@@ -127,8 +127,8 @@ const pg_approx_type *pg_approx_first (void);
 /* Reads the approximation of the section `method` of a scene for a force with shape functions;
  * spacing in m. A horizon below one spacing is a fault of the scene. */
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing);
-/* The same for a force without shape functions, whose unknowns are the values at the points:
- * kernel and horizon (spacings) are the defaults of that force, which the scene may replace. */
+/* Reads the approximation of a force without shape functions (unknowns: values at points). kernel and horizon
+ * (spacings): defaults, which the scene may replace. PG_E_SCENE: a horizon below one spacing (m). */
 pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double spacing, const char *kernel,
                                  double horizon);
 /* Keys of forces with shape functions: approximation, basis, support, weights, degenerate. */
@@ -139,11 +139,11 @@ extern const pg_key_table pg_keys_shape_functions;
 pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell);
 void      pg_rows_clear  (pg_rows *rows);
-/* The same in steps, for large bodies and for several lots of places: the points of the cloud sorted for
- * a search (which borrows the cloud; pg_family_search_free), places with their families but without
- * memory for shape functions and grades, found by any number of threads, and that memory. Nodes that a
- * place does not see (pg_between_sift: cloud->between) are not in its family. eye: where places on the
- * surface look from (n x dim, pg_rows_eyes); NULL: from where they are. */
+/* pg_rows_create in steps, for large bodies and for several lots of places. pg_rows_search sorts the cloud's
+ * points (and borrows it; pg_family_search_free); pg_rows_place finds the families of places on any number
+ * of threads; pg_rows_values adds the memory for shape functions and grades. Nodes that a place does not see
+ * (pg_between_sift: cloud->between) are not in its family. eye: where places on the surface look from
+ * (n x dim, pg_rows_eyes); NULL: from where they are. */
 pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_cloud *cloud);
 pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, const pg_cloud *cloud, size_t n,
                           const double *x, const double *weight, const int *own, const int *cell,

@@ -88,8 +88,8 @@ pg_sparse *pg_assembly_matrix (pg_assembly *assembly);
 
 /* The graph of the nodes alone: entry (J, I), J <= I, where a point of some list sees both (values NULL). */
 pg_status pg_assembly_graph (pg_sparse *out, size_t n, size_t nlist, const pg_adjacency *const *lists);
-/* The same for pairwise forces: node I and the nodes that it sees itself (symmetric lists without the
- * node's own number). */
+/* The graph of the nodes of pairwise forces: entry (J, I), J <= I, where node I sees node J itself, and the
+ * diagonal (values NULL). seen: symmetric lists without the node's own number. */
 pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *seen);
 
 /* ---- solvers ------------------------------------------------------------------------------------------- */
@@ -136,8 +136,8 @@ typedef struct pg_linear_type {
     pg_status (*factor)  (void *self, const pg_sparse *A);
     /* Solves for nrhs right-hand sides, column by column (n x nrhs); b and x may not overlap. */
     pg_status (*solve)   (void *self, size_t nrhs, const double *b, double *x);
-    /* The same for right-hand sides that are zero but for a few places near each other, such as unit forces;
-     * NULL: solve does. */
+    /* Solves for nrhs right-hand sides (n x nrhs) that are zero but for a few places near each other, such as
+     * unit forces; NULL: solve does. */
     pg_status (*solve_few) (void *self, size_t nrhs, const double *b, double *x);
     /* Half of it: y_i such that b_i . A^-1 b_j = y_i . y_j. y: nrhs columns, each of length n; written are
      * the numbers from first[2 k] to before first[2 k + 1], k < *count (borrowed until the next call), all
@@ -180,7 +180,7 @@ int  pg_linear_threads (int threads);
  * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal
  * included; values are ignored. many: as in pg_linear_options. */
 pg_status pg_linear_forecast (const pg_sparse *graph, int block, int many, pg_linear_info *info);
-/* The same of the solver that pg_linear_analyse takes for *type, which *type becomes. */
+/* pg_linear_forecast for the solver that pg_linear_analyse takes for *type; *type becomes that solver. */
 pg_status pg_linear_forecast_fitting (const pg_linear_type **type, const pg_sparse *graph, int block,
                                       int many, pg_linear_info *info);
 
@@ -196,14 +196,14 @@ typedef struct {
     pg_status (*solve) (void *context, const double *r, double *z);
     int threads;
 } pg_preconditioner;
-/* The same with a preconditioner of the caller's; P NULL: the diagonal. */
+/* pg_conjugate_gradients with a preconditioner P of the caller's; P NULL: the diagonal of A. */
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations);
 /* `n` numbers; begins as zero, cleared by pg_free (room.v). */
 typedef struct { double *v; size_t n; } pg_cg_room;
-/* The same, and who watches: `stepped` (NULL: nobody) hears after every iteration that x has gone on by alpha
- * times the vector that A was applied to last. Whoever keeps more of that product than the n rows solved for,
- * such as those of prescribed unknowns, can keep b - A x of all rows that way. `residual` is |b - A x| / |b|.
+/* Who watches conjugate gradients: `stepped` (NULL: nobody) hears after every iteration that x has gone on by
+ * alpha times the vector that A was applied to last. Whoever keeps more of that product than the rows solved
+ * for, such as those of prescribed unknowns, can keep b - A x of all rows so. `residual` is |b - A x| / |b|.
  * *stop = 1 ends the iterations as if the tolerance were met; an error ends them too, and is returned. */
 typedef struct {
     pg_status (*stepped) (void *context, double alpha, double residual, int *stop);
@@ -228,8 +228,8 @@ long pg_linear_failed_row (void);
 /* Solves A X = B for a dense general matrix, column-major (n x n, n x nrhs): A becomes its factors, b the
  * solution. PG_E_SINGULAR, PG_E_MEMORY. */
 pg_status pg_dense_lu (size_t n, double *A, size_t nrhs, double *b);
-/* The same in two parts: A (columns lda apart) becomes its factors with these pivots (n), 0: a pivot is zero;
- * then b (n x nrhs, columns ldb apart) becomes A^-1 b. */
+/* pg_dense_lu in two parts: A (n x n, columns lda apart) becomes its factors with pivots (n), 0: a pivot is
+ * zero, or there is no BLAS; then b (n x nrhs, columns ldb apart) becomes A^-1 b. */
 int  pg_dense_factor (size_t n, double *A, size_t lda, int *pivot);
 void pg_dense_substitute (size_t n, const double *A, size_t lda, const int *pivot, size_t nrhs, double *b,
                           size_t ldb);
@@ -312,7 +312,7 @@ void      pg_multilevel_free   (pg_multilevel **multilevel);
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
 /* Fills in the report. */
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
-/* The same of ranks that share it, in words. */
+/* Unknowns of the levels of a preconditioner that ranks share, in words, into text (size bytes). */
 void      pg_multilevel_describe_shared (const pg_multilevel *multilevel, char *text, size_t size);
 /* ---- a preconditioner that ranks share ----------------------------------------------------------------- */
 /* What it is built from: rows of the nodes that this rank owns, whose couplings are with nodes held here.
@@ -402,7 +402,7 @@ typedef struct {
     int    *function;  float *value;
     /* Where each function stands, m (count x dim). */
     double *place;
-    /* The same by functions: nodes and values from first[f] to first[f + 1] - 1 (count + 1). */
+    /* Nodes of each function, and its values there, from first[f] to first[f + 1] - 1 (first: count + 1). */
     size_t *first;  int *member;  float *share;
     /* Nodes of each cell of the grid, ascending, in the same way (ncell + 1). */
     size_t *cell_first;  int *cell_node;

@@ -132,8 +132,8 @@ pg_status pg_table_sync   (const pg_table *table);
 pg_status pg_table_row    (pg_table *table, const double *values);
 /* Appends a row of n texts, quoted where necessary; NULL leaves its cell empty. */
 pg_status pg_table_line   (pg_table *table, const char *const *values);
-/* The same for one of many rows: it may wait for those behind it. pg_table_write writes what waits, as does
- * the next row or line; pg_table_close drops it, and a failure all that was not written. */
+/* Appends one of many rows of n texts, which may wait for those behind it. pg_table_write writes what waits,
+ * as does the next row or line; pg_table_close drops it, and a failure all that was not written. */
 pg_status pg_table_line_later (pg_table *table, const char *const *values);
 pg_status pg_table_write  (pg_table *table);
 void      pg_table_close  (pg_table **table);
@@ -172,8 +172,8 @@ typedef pg_status (*pg_keep) (void *context, const pg_keeper *keeper);
  * variables and to write them. The file is written as PATH.new, synced and renamed, so that
  * PATH is at any instant the old file or the whole new one. */
 pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context);
-/* The same in two halves, so that ranks replace their checkpoints only when all of them have a new one:
- * PATH.new, whole and on the disk; then its rename (PG_E_FILE). */
+/* pg_checkpoint_write in two halves, so that ranks replace their checkpoints only when all have a new one:
+ * `prepare` leaves PATH.new, whole and on the disk; `commit` renames it to PATH (PG_E_FILE). */
 pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context);
 pg_status pg_checkpoint_commit  (const char *path);
 /* Removes PATH.new, if it is there. */

@@ -98,8 +98,8 @@ void      pg_subdomain_clear_ghosts (const pg_subdomain *subdomain, size_t compo
 pg_status pg_subdomain_label (const pg_subdomain *subdomain, size_t n, size_t components, int *parent,
                               double *label);
 
-/* The same sets: out[0]: points that are joined to none, out[1]: parts of several points; on all ranks, each
- * counted where the point is owned that its part is labelled by. All ranks call. */
+/* Counts the sets `parent` of pg_subdomain_label over all ranks: out[0]: points joined to none, out[1]: parts
+ * of several points; each is counted where the point is owned that it is labelled by. All ranks call. */
 pg_status pg_subdomain_count (const pg_subdomain *subdomain, size_t n, int *parent, double *out /* (2) */);
 
 /* How many cells that count (those in the body) plane `plane` along `axis` has within a box. */

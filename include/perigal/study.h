@@ -73,8 +73,8 @@ pg_status pg_trial_run  (pg_trial *out, const pg_trial_request *q);
  * start: pg_seconds when the process began. */
 pg_status pg_trial_measure (pg_trial *out, const pg_scene *scene, const char *folder, int threads,
                             double start);
-/* The same numbers for a finite element result, in a file that pg_mesh_result reads; unit:
- * metres in a length unit of the file. */
+/* Measures a finite element result, in a file that pg_mesh_result reads, against the reference of the scene
+ * (PG_E_SCENE: it has none): errors, nodes, unknowns. unit: metres in a length unit of the file. */
 pg_status pg_trial_of_mesh (pg_trial *out, const pg_scene *scene, const char *path, double unit);
 /* The numbers as lines "name value", which pass from process to process. What a text lacks
  * becomes NAN, and what is NAN is not written. */
@@ -135,7 +135,7 @@ typedef struct {
     size_t      nset;  const char *set[PG_TRIAL_SETS];
     size_t      n;     const pg_series_run *run;
     int         threads;
-    /* So many run at a time; 0: one. Limit of memory of each, such as "2GB"; NULL: none. */
+    /* jobs: how many run at a time; 0: one. memory: limit of each, such as "2GB"; NULL: none. */
     int         jobs;
     const char *memory;
     /* How many signals have asked to stop, as the caller's handler counts them; NULL: none can. The runs
@@ -178,7 +178,7 @@ typedef struct {
     size_t      count;
     long        first;
     int         threads;
-    /* As in pg_series_request. */
+    /* Runs at a time, limit of memory of each, signals to stop, lines told: as in pg_series_request. */
     int         jobs;
     const char *memory;
     const volatile sig_atomic_t *stop;

@@ -127,8 +127,8 @@ static void visit_near (builder *m, size_t number, int *near)
             }
 }
 
-/* The same for a region of facets, piece by piece: the region may be large and the cell near its plane only,
- * or near a hole in it. */
+/* Visits the boxes near a region of facets (near: as in visit_near), piece by piece: the region may be large
+ * and the cell near its plane only, or near a hole in it. */
 static void visit_region (builder *m, size_t number, int *near)
 {
     const cut_surface *whole = &m->cut->surface[number];

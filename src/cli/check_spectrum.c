@@ -117,7 +117,7 @@ static void put_motion (pg_json *j, const char *key, const pg_motion *m, const p
     pg_json_shut (j);
 }
 
-/* The same numbers under fixed keys. */
+/* Writes what was found of plane waves as a JSON object "spectrum" with fixed keys; nothing without any. */
 void spectrum_json (pg_json *j, const spectrum *x)
 {
     const pg_symbol *s = x->symbol;

@@ -10,7 +10,7 @@
 
 /* SCENE [-o DIR] [--resume | --force] ...: solves and leaves a folder of results (run.c). */
 int pg_cli_run   (int argc, char **argv);
-/* The same as one of several ranks (perigal/ranks.h). *together 0: this rank has failed in a way that the
+/* pg_cli_run as one of several ranks (perigal/ranks.h). *together 0: this rank has failed in a way that the
  * others do not know of, and they wait for it. */
 int pg_cli_run_ranks (int argc, char **argv, int *together);
 /* SCENE [--json] [--solve] [--spectrum] ...: what is wrong with a scene, or what it amounts to
@@ -138,8 +138,8 @@ int       afford_tiny      (const pg_scene *scene);
 /* PG_E_LIMIT if the run would need more memory than there is, judged from the scene before
  * anything large is built; a wrong scene gives an empty forecast. */
 pg_status afford_scene     (const command *c, pg_forecast *f);
-/* The same from the built problem. thorough = 1: the matrix is analysed in any case, not only
- * when memory may be short. */
+/* PG_E_LIMIT if the run would need more memory than there is, judged from the built problem. thorough = 1:
+ * the matrix is analysed in any case, not only when memory may be short. */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
                           int thorough /* analyse whatever is free */);
 
@@ -189,7 +189,7 @@ plan_times plan_times_of (const plan *p);
 /* What the run will not do, as far as that is known before; returns how many entries were
  * written. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);
-/* The same numbers at length for people, and as JSON for programs. */
+/* Print all that check has found out: at length for people, and as JSON for programs. */
 void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
 /* Prints what `write` puts into the JSON file `path`. */
@@ -205,6 +205,6 @@ void plan_network      (const pg_crack_statistics *network);
 void plan_settled     (const pg_solver *solver);
 /* Warnings of a report but for those told before (NULL: none). */
 void plan_warnings   (const pg_statistics *report, const pg_statistics *before);
-/* The same on stderr, for runs that print nothing else. */
+/* Warnings of a report but for those told before, on stderr, for runs that print nothing else. */
 void plan_quiet_warnings (const pg_statistics *report, const pg_statistics *before);
 #endif

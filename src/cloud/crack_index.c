@@ -89,7 +89,7 @@ done:
     return status;
 }
 
-/* That of a k-d tree of the centres. */
+/* Fills c->order: the cracks in the order that a k-d tree gives the centres of their boxes. */
 static pg_status sort (pg_cracks *c)
 {
     pg_status status = PG_OK;

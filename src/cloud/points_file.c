@@ -45,7 +45,7 @@ typedef struct {
     size_t  column[ROLES];
     /* SI units per unit of that column. */
     double  scale[ROLES];
-    /* As in pg_cloud. */
+    /* Names of the columns that are not used, as in pg_cloud: "id, label"; "": there are none. */
     char    passed[sizeof ((pg_cloud *) 0)->passed];
     /* 1: a header has named the columns. */
     int     headed;

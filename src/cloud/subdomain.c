@@ -25,7 +25,7 @@ static pg_box sites_of (const pg_box *cells, const pg_lattice *l, int centred)
     return out;
 }
 
-/* The same with as many layers of ghosts around as `width` needs. */
+/* A box of sites widened by as many layers of ghosts as `width` (m) needs, within the lattice. */
 static pg_box widened (pg_box b, const pg_lattice *l, int centred, double width)
 {
     for (int k = 0; k < l->dim; k++) {

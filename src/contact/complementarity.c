@@ -238,7 +238,7 @@ static unsigned char better_line (const contact_work *w, size_t k, double tiny)
     return slip < -tiny ? PG_CONTACT_BACKWARD : slip > tiny ? PG_CONTACT_FORWARD : now;
 }
 
-/* The same with two tangents; *left: what the law of slip leaves, m. */
+/* The status that a closed pair with two tangents should have; *left grows to what its slip law leaves, m. */
 static unsigned char better_plane (const contact_work *w, size_t k, double tiny, double *left)
 {
     const pg_contact_problem *p = w->p;

@@ -30,7 +30,7 @@ typedef struct {
      * not wanted. */
     void      (*blocks) (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own,
                          double *other);
-    /* The same without the share of a dilatation. NULL: all of the force comes with the dilatation. */
+    /* Blocks of a bond without a dilatation's share. NULL: all of the force comes with the dilatation. */
     void      (*alone)  (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own,
                          double *other);
     /* 1: point k has the constants of point 0, so that one row of K can serve both. NULL: never. */

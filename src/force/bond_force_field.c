@@ -40,8 +40,8 @@ static void take_worse (const judging *s, const pg_criterion *c, const pg_bond_m
         if (!(out[k] > s->factor[entry[k]])) s->factor[entry[k]] = out[k];
 }
 
-/* Those bonds of a batch whose law is that of the material, copied together and judged at once: criteria
- * take arrays, so that their own loops are long. */
+/* Judges the bonds of a batch whose law is that of the material, copied together, at once: criteria take
+ * arrays, so that their own loops are long. */
 static void judge_by (const judging *s, const batch *all, int material)
 {
     const pg_problem *p = s->b->problem;

@@ -125,7 +125,7 @@ done:
     return status;
 }
 
-/* Also of one that was made in part only. */
+/* Frees what boundary_create made, also where it failed halfway; *s is zero afterwards. */
 void boundary_free (point_boundary *s)
 {
     for (size_t k = 0; k < s->nload; k++)

@@ -214,8 +214,8 @@ done:
     return status;
 }
 
-/* The same for the bonds of a group, of which those that are not judged have utilisation 0 and an infinite
- * factor: stresses and displacements are measured at their ends alone. */
+/* Utilisation, kind and load factor of the bonds of a group; those that are not judged have utilisation 0 and
+ * an infinite factor. Stresses and displacements are measured at the ends of the group's bonds alone. */
 pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond_group *group,
                                 const double *d, double *utilisation, char *kind, double *factor)
 {

@@ -145,7 +145,7 @@ done:
     return status;
 }
 
-/* The same of cells with consistent integration. */
+/* Records cells with consistent integration, about to be evaluated anew (sign -1) or just evaluated (1). */
 pg_status galerkin_change_cells (galerkin *g, size_t count, const size_t *cell, double sign)
 {
     pg_status status = PG_OK;
@@ -156,7 +156,7 @@ done:
     return status;
 }
 
-/* The same of a patch of the dilatation; at supported facets its flux is in the constant forces as well. */
+/* Records a patch of the dilatation; at supported facets its flux is in the constant forces as well. */
 pg_status galerkin_change_patch (galerkin *g, size_t patch, int supported, double sign)
 {
     if (!g->change) return PG_OK;

@@ -277,7 +277,7 @@ static void treat (galerkin *g, size_t k, int p, double *sum)
     }
 }
 
-/* Those of the intact body until there are others. */
+/* Values and grades at the faces of all cells: those of the intact body until there are others. */
 const pg_rows *galerkin_ended_faces (const galerkin *g)
 {
     return g->ended && g->ended->face.N ? &g->ended->face : &g->problem->consistency->face;

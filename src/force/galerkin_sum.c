@@ -190,7 +190,7 @@ PG_WIDE static void sum_solid (const summing *m, size_t first, size_t last, doub
     }
 }
 
-/* The same in one and two dimensions, `dim` being a number that the compiler knows. */
+/* Forces of points in 1D and 2D (a constant dim) by stresses at hand or (x given) those of displacement x. */
 INLINE void sum_flat (int dim, const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;

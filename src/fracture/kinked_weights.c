@@ -72,8 +72,8 @@ static double complex traction (double complex z, double complex turn, double co
     return mean + turn * (across - mean);
 }
 
-/* That of a dislocation at s with B = 1 and with B = i. At conj z the two fractions are conjugate to each
- * other's at z. */
+/* Traction across a piece by a dislocation at s with B = 1 (T[0]) and with B = i (T[1]). At conj z the two
+ * fractions are conjugate to each other's at z. */
 static void of_dislocation (const place *at, double complex turn, const place *s, double complex T[2])
 {
     double complex z = at->z, rs = s->root, rc = conj (rs), c = conj (s->z), d = inverse_of (z - s->z),
@@ -96,7 +96,7 @@ static void of_dislocation (const place *at, double complex turn, const place *s
     }
 }
 
-/* That of load number `which`: the singular field of the straight crack, or what acts on the pieces. */
+/* Traction across a piece by load `which`: singular field of the straight crack, or what acts on pieces. */
 static double complex of_load (const place *at, double complex turn, size_t which, const kinked_faces *load)
 {
     double complex z = at->z;
@@ -167,8 +167,8 @@ static void add_series (const place *node, size_t n, const double *d, double tim
     }
 }
 
-/* The same to half the jump of mu / (kappa + 1) u across the straight crack: int O dz from infinity along its
- * left face, in closed form by the root of z. */
+/* Adds `times` mu / (kappa + 1) times the jump of u across the straight crack by densities d: int O dz from
+ * infinity along its left face, in closed form by the root of z. */
 static void add_jump (const place *node, size_t n, const double *d, double times, double reach,
                       double complex *jump)
 {

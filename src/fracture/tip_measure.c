@@ -96,8 +96,8 @@ static void free_faces (tip_grid *grid, int at, const tip_material *m, double pr
     }
 }
 
-/* The same of faces that touch: the uniform stress sigma_22 = -p, sigma_12 = tau of the frame, sigma_11 = 0,
- * is subtracted, without its rotation (Hooke's law by mu and kappa). */
+/* Frees faces that touch of their tractions: the uniform stress sigma_22 = -p, sigma_12 = tau of the frame,
+ * sigma_11 = 0, is subtracted, without its rotation (Hooke's law by mu and kappa). */
 static void part_faces (tip_grid *grid, int at, const tip_material *m, const double *stress)
 {
     tip_sample *f = &grid->field[at];

@@ -33,7 +33,7 @@ static int compare_corners (const candidate *c, const candidate *d)
     return 0;
 }
 
-/* The same; equal faces in the order of their numbers, so that the sorted order is unique. */
+/* Order of two faces by their corners, of equal ones by their numbers, so that the sorted order is unique. */
 static int compare (const void *a, const void *b)
 {
     const candidate *c = a, *d = b;
@@ -66,7 +66,7 @@ static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, 
     pg_sort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
 }
 
-/* The same with facet f of the boundary, a face of an element. */
+/* Fills c with facet f of the boundary, a face of an element; cell is -1, and no coordinate is -0. */
 static void describe_facet (candidate *c, const pg_cells *cells, size_t at, size_t f)
 {
     size_t dim = (size_t) cells->dim;

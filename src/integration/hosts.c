@@ -126,7 +126,7 @@ done:
     return status;
 }
 
-/* The same pairs, from the other end. */
+/* Turns each of `count` pairs (from, to) into (to, from). */
 static void turn_pairs (int *pair, size_t count)
 {
     for (size_t k = 0; k < count; k++) {

@@ -75,7 +75,7 @@ typedef struct {
     int    *function;
     /* Its value at the node (n x corners). */
     float  *weight;
-    /* The same by functions: nodes and values of function f are at[f] .. at[f + 1] - 1 (nfunction + 1). */
+    /* Nodes of function f and its values there: entries at[f] .. at[f + 1] - 1 (at: nfunction + 1). */
     size_t *at;  int *member;  float *share;
     /* Vectors of the cycle (ndof): right-hand side and solution (on the finest level the caller's),
      * residual, step, A times step. */

@@ -152,7 +152,7 @@ static const signed char square[9][3] = { { -1, -1 }, { 1, -1 }, { 1, 1 },  { -1
                                           { 1, 0 },   { 0, 1 },  { -1, 0 }, { 0, 0 } };
 static const signed char rod[3][3] = { { -1 }, { 1 }, { 0 } };
 
-/* The same for a node of one of these kinds. */
+/* Reference coordinates of a node of a hexahedron, quadrilateral or bar; of a pyramid those in its base. */
 static const signed char *signs (pg_element kind, int node)
 {
     family f = family_of[kind];

@@ -27,8 +27,8 @@ done:
     return status;
 }
 
-/* The same in a table of a power of two slots, at least twice as many as numbers; a slot that is taken by
- * another number sends on to the next one. */
+/* Fills a hash table with a power of two slots, at least twice as many as numbers; a slot that is taken by
+ * another number sends on to the next one. Entries and *twice: as in build_dense. */
 static pg_status build_hash (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;

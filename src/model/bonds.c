@@ -341,7 +341,7 @@ done:
     return status;
 }
 
-/* That of the nearest node where spacings differ. */
+/* Local spacing at a point of a set, m: that of its nearest node where spacings differ. */
 double pg_problem_spacing (const pg_problem *p, int set, size_t point)
 {
     return p->spacing[set] ? p->spacing[set][point] : p->cloud.h;

@@ -26,7 +26,7 @@ static int body_at (const pg_problem *p, const double *x, const double *e, doubl
     return pg_problem_has_body (p, place);
 }
 
-/* The same, places on the surface among it: rounding decides on these. */
+/* Is x + r e in the body or on its surface, to rounding? */
 static int body_near (const pg_problem *p, const double *x, const double *e, double r)
 {
     double place[3];

@@ -27,7 +27,7 @@ typedef struct {
 
 static void stencil_clear (stencil *s) { pg_free (s->step), pg_free (s->row), pg_free (s->bits); }
 
-/* Also of a counter that was filled in part only. */
+/* Frees what a counter holds, also one that was filled in part only. */
 static void counter_clear (counter *c)
 {
     pg_free (c->site), pg_free (c->mark);

@@ -60,7 +60,7 @@ done:
     return status;
 }
 
-/* The same for callers that use the buffered functions of C (cairo, JSON). */
+/* pg_disk_create for callers that use the buffered functions of C (cairo, JSON). */
 pg_status pg_file_create (FILE **out, const char *path)
 {
     int file;

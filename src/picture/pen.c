@@ -67,7 +67,7 @@ void pg_chart_marker (cairo_t *cr, size_t k, double x, double y)
     cairo_new_path (cr);
 }
 
-/* The same colour mixed with white, which stays visible behind the full one. */
+/* Sets a pen of the colour of curve k mixed with white, which stays visible behind the full one. */
 void pg_chart_pale_pen (cairo_t *cr, size_t k)
 {
     double rgb[3];

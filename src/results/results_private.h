@@ -115,7 +115,7 @@ struct pg_result {
     /* What the tips of the state of the last row bear. */
     pg_tip_values *tip_value;  size_t cap_tip_value;
     pg_quadrature facet_points;                        /* of all facets, once asked for */
-    /* The same of the vertices of fronts in space. */
+    /* What the vertices of the fronts in space of the state of the last row bear. */
     pg_front_values *front_value;  size_t nfront_value, cap_front_value;
     /* Time (s) or load factor of each of these rows. */
     double   *tip_time;

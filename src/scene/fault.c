@@ -103,7 +103,7 @@ pg_status pg_faults_verdict (const pg_faults *f)
     if (f->lost) return pg_error (PG_E_MEMORY, PG_HERE, "no memory for the faults of the scene");
     if (f->n == 0) return PG_OK;
     sort (f->fault, f->n);
-    /* As many as fit into a message. */
+    /* Faults are told while they fit into the message, SHOWN at most. */
     for (; k < f->n && k < SHOWN; k++) {
         size_t length = strlen (f->fault[k].text);
         if (used + length + 2 > sizeof text) break;

@@ -156,7 +156,7 @@ pg_status pg_quantity_read (double *out, int *spacing, const char *text, const c
     return status == PG_OK ? pg_quantity_sane (*out) : status;
 }
 
-/* The same without the alternative of a spacing. */
+/* Reads a number and its unit as pg_quantity_read does, but for `spacing`, which is no unit here. */
 pg_status pg_unit_parse (double *out, const char *text, const char *unit)
 {
     int spacing;

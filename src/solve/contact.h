@@ -150,7 +150,7 @@ void      contact_rebound (const pg_system *s, double times);
 pg_status contact_settle_tips (pg_system *s, pg_state *state);
 /* What the faces behind a tip do to each other, in the one field at hand, or in the two of a stretch. */
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out);
-/* The same behind each vertex of a front, loads scaled (contact_fronts.c). */
+/* Stresses of the faces behind each vertex of a front, times scale, of nfield fields (contact_fronts.c). */
 void contact_at_front (const pg_system *s, const pg_front *front, int nfield, double scale,
                        pg_front_faces *out);
 
@@ -230,8 +230,8 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
 /* base and unit become the line of the stretch that leads on from where it stands, towards s = 1; *fresh 0:
  * they were it. */
 pg_status contact_route_ahead (pg_system *s, double *base, double *unit, double *residual, int *fresh);
-/* The same towards s = 0, in total form: slips count from the last accepted ones all the way. Where the
- * stretch has ended in a change of status, contact_route_behind takes up the path behind it. */
+/* base and unit become the line of the stretch from here back towards s = 0, in total form: slips count from
+ * the last accepted ones all the way. contact_route_behind takes up the path behind a change of status. */
 pg_status contact_route_back   (pg_system *s, double *base, double *unit, double *residual);
 pg_status contact_route_behind (pg_system *s);
 /* t at which the stretch ends; 1: pieces change their status there; 1: at its beginning forces and gaps have

@@ -79,8 +79,8 @@ pg_status event_solver_watch  (event_solver *e, size_t n, const int *node);
 pg_status event_solver_watched (event_solver *e, int which, double *u);
 /* The whole displacement of a case, ndof. */
 pg_status event_solver_full   (event_solver *e, int which, double *u);
-/* The same, measured by the force itself; *residual: over the reference force. Above `enough` it is corrected
- * once, the base with it; of the events of the block no displacement may be asked for then: flush it. */
+/* Displacement u of a case (ndof); *residual: by the force itself, over the reference force. Above `enough` u
+ * and the base are corrected once; of the block's events no displacement may be asked for then: flush it. */
 pg_status event_solver_settle (event_solver *e, int which, double enough, double *u, double *residual);
 /* K^-1 r of any reduced residual, delta (nred): a solve with the base factor, corrected for D. */
 pg_status event_solver_correct (event_solver *e, const double *r, double *delta);

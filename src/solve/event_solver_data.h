@@ -81,7 +81,7 @@ void      touched_displacement (event_solver *e, int c);
 /* Green columns of the unknowns from `first` on. */
 pg_status columns_make  (event_solver *e, size_t first);
 
-/* The same with halves instead, and H from them. */
+/* Halves (half_few) in place of the Green columns of the unknowns from `first` on, and H from them. */
 pg_status columns_halve (event_solver *e, size_t first);
 /* r -= T' W y, reduced forces from forces on the touched unknowns */
 void      columns_unload (const event_solver *e, const double *y, double *r);
@@ -92,7 +92,7 @@ static inline const double *green_column (const event_solver *e, size_t i)
 {
     return e->chunk[i / CHUNK] + (i % CHUNK) * e->ndof;
 }
-/* Those that are missing of the rows of the watched nodes. */
+/* Takes the columns that came since the last call into the rows of the watched nodes. */
 pg_status columns_watch (event_solver *e);
 /* y = a y + G x */
 void      columns_times (const event_solver *e, double a, const double *x, double *y);

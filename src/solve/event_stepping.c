@@ -340,7 +340,7 @@ done:
     return status;
 }
 
-/* Those of factor 1, which the balance at hand has, times the factor. */
+/* Reactions of all loads: those of factor 1, which the balance at hand has, times the factor. */
 static void take_reactions (pg_solver *s, double factor)
 {
     const double *of_unit = s->break_loop.work_balance.reaction;

@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* Also of one that was made in part only. */
+/* Frees what explicit_create made, also where it failed halfway. */
 void explicit_free (pg_solver *s)
 {
     motion *m = motion_of (s);

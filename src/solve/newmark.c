@@ -55,7 +55,7 @@ static void rates (const course *m, const double *d, double *v, double *a)
     newmark_follow (m->n, m->t, v, a);
 }
 
-/* The same at the end of a step, on ranks that share the body with ghosts as their owners have them. */
+/* V and A at the end of a step, on ranks that share the body with ghosts as their owners have them. */
 static pg_status settle_rates (const course *m, pg_state *state)
 {
     pg_status status = PG_OK;

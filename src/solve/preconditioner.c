@@ -76,7 +76,7 @@ static int has_what_it_takes (const pg_system *s, const dynamics *dyn)
     return !system_is_shared (s) || pg_shared_preconditioner_now ();
 }
 
-/* The same with supports that leave unknowns for it. */
+/* *can: has the system what a preconditioner takes, and do its supports leave unknowns for it? */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;

@@ -45,7 +45,7 @@ double system_norm (const pg_system *s, const double *force, size_t n)
     return sqrt (system_sum (s, sum));
 }
 
-/* The same of displacements (ndof), each times `weight` (NULL: 1), ghosts left out. */
+/* Euclidean norm of displacements (ndof), each times `weight` (NULL: 1), ghosts left out. */
 double system_norm_owned (const pg_system *s, const double *weight, const double *d)
 {
     const pg_subdomain *part = part_of (s);

@@ -91,8 +91,8 @@ done:
 }
 
 /* ---- the fields at hand -------------------------------------------------------------------------------- */
-/* Those of growth are the displacement at load factor 1, or its constant part and the part that grows with
- * the load factor; here the second is the displacement at load factor 1. */
+/* Takes the fields of growth, the displacement at load factor 1, or its constant part and the part that grows
+ * with the load factor; of two the second becomes the displacement at load factor 1. */
 pg_status trial_take_fields (trials *w, int nfield, const double *const *d, const double *t, trial_fields *f)
 {
     pg_status status = PG_OK;

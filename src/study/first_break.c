@@ -123,7 +123,7 @@ done:
     return status;
 }
 
-/* The same of a state in space: the vertex that went farthest; of a new crack one of its front. */
+/* The advance of fronts in space: the vertex that went farthest; of a new crack one of its front. */
 static void find_advance (pg_first_break *b, const pg_crack_surfaces *w)
 {
     double most = -1;

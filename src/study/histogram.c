@@ -42,8 +42,8 @@ double pg_chart_unit (double size, const char *unit, char *out, size_t bytes)
     return pow (10, -3.0 * (k - 3));
 }
 
-/* As many equal bins as the root of the number of values, between least and largest; the outline of the
- * bars, and a line at the mean. */
+/* Draws a histogram: as many equal bins as the root of the number of values, between least and largest; the
+ * outline of the bars, and a line at the mean. *drawn 0: nothing, as values are too few or all the same. */
 pg_status pg_histogram_draw (int *drawn, const char *path, const pg_spread *s, const double *value,
                              const char *quantity, const char *unit, const char *title)
 {

@@ -19,7 +19,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return setting->sums->cloud->dim < 2 ? "bonds of a line bear no shear" : NULL;
 }
 
-/* Also of an object that was never completed. */
+/* Frees a list of beams, also one that was never completed. */
 static void release (void *self)
 {
     beam_list *s = self;

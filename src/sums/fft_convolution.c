@@ -14,7 +14,7 @@ static const char *fft_refusal (const pg_bond_loop_setting *setting)
     return pg_stencil_loop_refusal (setting);
 }
 
-/* Also of an object that was never completed. */
+/* Frees a loop by transforms, also one that was never completed. */
 static void fft_free (void *self)
 {
     transformer *t = self;

@@ -27,7 +27,7 @@ static void place_records (bond_list *list)
     }
 }
 
-/* Also of a list that was never completed. */
+/* Frees a list of bonds, also one that was never completed. */
 void pg_list_free (void *self)
 {
     bond_list *list = self;
@@ -285,7 +285,7 @@ static void walk_slots (bond_slots *slots, size_t slice, int what, collector *fo
     }
 }
 
-/* The same in all chunks that have lost any. */
+/* Bonds that died, in all chunks that have lost any: noted, forgotten or brought back to life. */
 static void walk_lost (bond_list *list, int what, collector *found)
 {
     for (size_t chunk = 0; chunk < list->chunks; chunk++) {

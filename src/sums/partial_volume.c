@@ -72,8 +72,8 @@ static int insert (double *list, int n, double x)
     return n + 1;
 }
 
-/* The same of a box and a ball: areas of slices along the first axis, by Gauss points between the places
- * where one of the four edges enters or leaves the ball, at which the area has kinks. */
+/* Volume that a box in the first octant and a ball have in common: areas of slices along the first axis, by
+ * Gauss points between the places where one of the four edges enters or leaves the ball: the area's kinks. */
 static double volume (const box *b, double R)
 {
     double low2 = 0, kink[6], sum = 0;

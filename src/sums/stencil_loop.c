@@ -24,7 +24,7 @@ const char *pg_stencil_loop_refusal (const pg_bond_loop_setting *setting)
     return NULL;
 }
 
-/* Also of an object that was never completed. */
+/* Frees a loop over a stencil, also one that was never completed. */
 void pg_stencil_loop_free (void *self)
 {
     stencil *s = self;
