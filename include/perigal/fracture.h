@@ -91,11 +91,11 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t);
 
-/* The same where faces may touch (NULL: they do not), and the next facet will be so long (m; 0: it is not
- * asked for). The uniform field that carries the same stress across
- * the faces is subtracted: what is left has free faces behind the tip, and its K_II is that of the tip; rings
- * of an open tip end before the next closed piece, whose tractions are in no integral of theirs; the ring
- * around a kink has the tractions of the pieces on the straight crack behind it. */
+/* Measures tip number `tip` as pg_tip_measure does, where its faces may touch (faces NULL: they do not).
+ * facet: length of trial facets at whose end K is asked for, m (0: it is not). The uniform field that carries
+ * the same stress across the faces is subtracted: what is left has free faces behind the tip, and its K_II is
+ * that of the tip; rings of an open tip end before the next closed piece, whose tractions are in no integral
+ * of theirs; the ring around a kink has the tractions of the pieces on the straight crack behind it. */
 pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
                                 void *self, const pg_state *state, size_t tip, int nfield,
                                 const double *const *d, const double *t, const pg_tip_faces *faces,
@@ -116,9 +116,9 @@ typedef struct {
     int    closed;                                     /* 1: they press on each other behind the vertex */
     double nearest;  /* distance from the vertex to the next piece that is closed, m; INFINITY: none */
 } pg_front_faces;
-/* The same where faces may touch: of each vertex what they do (NULL: they do not). As with tips
- * the uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J of K_II and K_III, T is
- * not known there; tubes around an open one end before the next closed piece. */
+/* Measures a front (pg_front_measure) where faces may touch; faces: of each vertex what they do (NULL: they
+ * do not). As with tips the uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J
+ * of K_II and K_III, T is not known; tubes around an open one end before the next closed piece. */
 pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
                                   void *self, const pg_state *state, size_t front, int nfield,
                                   const double *const *d, const double *t, const pg_front_faces *faces);

@@ -57,8 +57,8 @@ pg_status pg_material_add (const pg_material_type *type);
 /* The material materials.<name> of the scene, for a mode. A key that its model does not read is a fault of
  * the scene. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
-/* The same where Young's modulus is an expression of place: constants are those of the reference, Pa (NAN: it
- * must be a number). */
+/* Reads the material materials.<name> as pg_material_read does, where Young's modulus may be an expression of
+ * place: constants are then those of the reference modulus, Pa (NAN: it must be a number). */
 pg_status pg_material_read_graded (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode,
                                    double reference);
 /* Keys youngs_modulus and poissons_ratio, and constants of an isotropic material from E and nu: D,

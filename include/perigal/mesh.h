@@ -56,7 +56,7 @@ void       pg_gauss_rule    (int order, double *x, double *w);
  * of nodes of pg_element_face (a point in 1D: +1); zero for other elements. */
 double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place,
                        double *normal);
-/* The same from N and dN at xi (pg_element_shape), which all elements of a kind share. */
+/* Isoparametric map (pg_element_map) from N and dN at xi (pg_element_shape), shared by elements of a kind. */
 double pg_element_map_by (pg_element kind, int dim, const double *x, const double *N, const double *dN,
                           double *place, double *normal);
 /* Reference coordinates of a place in an element with d = dim, by Newton's method; 0: it did not converge.
@@ -135,15 +135,15 @@ pg_status pg_mesh_builder_group   (pg_mesh_builder *m, int dim, long group, cons
 /* Begins a node set; the following calls fill it. Without a name its number is the name. */
 pg_status pg_mesh_builder_nodeset (pg_mesh_builder *m, const char *name, long id);
 pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node);
-/* The same for a side set; sides are numbered from 0 as by pg_element_face. */
+/* Begins a side set called `name` (NULL, "": `id`); its sides are numbered from 0 as by pg_element_face. */
 pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id);
 pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element,
                                        int side /* from 0, as pg_element_face */);
 /* Notes that something of the file is passed over: the same words are counted. */
 pg_status pg_mesh_builder_pass    (pg_mesh_builder *m, const char *format, ...)
     __attribute__ ((format (printf, 2, 3)));
-/* The same for elements that are left out as their type is not known: `words` tell of the first of a type and
- * block ("": none). */
+/* Notes elements that are left out as their type is not known, in this block ("": none); words: what to say
+ * of them, kept of the first of a type and block. */
 pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const char *block,
                                    const char *words);
 /* Notes that elements of this type are meant for plane strain. */

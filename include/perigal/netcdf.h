@@ -30,7 +30,7 @@ typedef struct {
  * memory is asked for. PG_E_FILE: there is no such file, it is none of netCDF, or its header is broken, and
  * near which byte. */
 pg_status pg_netcdf_open  (pg_netcdf **out, const char *path);
-/* The same for the bytes of a file in memory; they are borrowed. path: for messages. */
+/* Opens a file whose bytes are in memory (borrowed) as pg_netcdf_open does. path: for messages. */
 pg_status pg_netcdf_parse (pg_netcdf **out, const char *path, const void *bytes, size_t size);
 void      pg_netcdf_close (pg_netcdf **file);
 
@@ -46,7 +46,7 @@ void      pg_netcdf_about (const pg_netcdf *file, int variable, pg_netcdf_variab
  * none of numbers, or a value does not fit. */
 pg_status pg_netcdf_doubles (const pg_netcdf *file, int variable, size_t first, size_t n, double *value);
 pg_status pg_netcdf_longs   (const pg_netcdf *file, int variable, size_t first, size_t n, long *value);
-/* The same of characters or bytes, as they are. */
+/* Characters or bytes first .. first + n - 1 of a variable, as they are. PG_E_FILE: not so many, no text. */
 pg_status pg_netcdf_chars   (const pg_netcdf *file, int variable, size_t first, size_t n, char *value);
 
 /* The text of an attribute of a variable (-1: of the file); 0: there is none, it is no text, or it does not

@@ -163,7 +163,7 @@ typedef struct {                                       /* of the run so far */
     /* what ended the run before its loads were reached, static text; NULL: see warnings */
     const char *ended_by;
 } pg_statistics;
-/* The same, but not if these words are there already. */
+/* Adds a warning to the report unless the report has these words already. */
 void pg_statistics_warn_once (pg_statistics *report, const char *format, ...)
     __attribute__ ((format (printf, 2, 3)));
 /* What forces and moments may miss of balance: ten times what the solver leaves, 1e-10, or what a factor with
@@ -252,9 +252,9 @@ typedef struct {
     void      (*free)    (pg_solver *s);
     /* What it carries from step to step, written to or read from a checkpoint. */
     pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);
-    /* The same of a run whose points were divided among processes otherwise (pg_solver_move), the state being
-     * there already. within 1: the run ended in the middle of a step, whose start the state is. NULL: it
-     * cannot. */
+    /* Takes over what a run kept whose points were divided among processes otherwise (pg_solver_move); the
+     * state is there already. within 1: that run ended in the middle of a step, whose start the state is.
+     * NULL: this solver cannot. */
     pg_status (*move)    (pg_solver *s, pg_state *state, const struct pg_moved *moved, int within);
     double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps */
     /* Other ends that a run may come to: progress_offer. */
@@ -269,7 +269,7 @@ typedef struct {
 const pg_solver_type *pg_solver_find (const char *name);               /* NULL: unknown */
 
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options);
-/* The same with a force of the caller's (tests, experiments). */
+/* Makes a solver as pg_solver_create does, with a force of the caller's (tests, experiments). */
 pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options,
                                  const pg_force_type *force);
 void      pg_solver_free   (pg_solver **solver);
@@ -315,9 +315,9 @@ typedef struct pg_moved {
     pg_status (*shares)   (void *context, const char *name, size_t n, double *value);
     /* Of each point that this process holds, what its owner had: `components` numbers a point. */
     pg_status (*points)   (void *context, const char *name, size_t components, double *value);
-    /* The same of single unknowns. They were kept as a list of whole numbers, number of the point times
-     * `components` plus component, and as rows of as many numbers, of which `row` is asked for; all others of
-     * value stay as they are. */
+    /* Values of single unknowns of points held here, as their owners had them. They were kept as a `list` of
+     * whole numbers, number of the point times `components` plus component, and as rows `name` of as many
+     * numbers, of which `row` is asked for; all others of value stay as they are. */
     pg_status (*unknowns) (void *context, const char *list, const char *name, size_t row, size_t components,
                            double *value);
     /* Bonds that were dead when the last step was made get the alive bit 0; the others keep theirs. */
@@ -371,7 +371,7 @@ const pg_platen_values *pg_solver_platens (const pg_solver *solver, size_t *n);
 const pg_contact_values *pg_solver_contact (const pg_solver *solver, size_t *n);
 /* What the faces behind a tip of the state do to each other, with contact; 0: the run has none. */
 int pg_solver_tip_faces (const pg_solver *solver, const pg_state *state, size_t tip, pg_tip_faces *out);
-/* The same behind all vertices of front number `front` in space (out: one of each). */
+/* What faces do to each other behind all vertices of a front in space (out: one of each); 0: no contact. */
 int pg_solver_front_faces (const pg_solver *solver, const pg_state *state, size_t front, pg_front_faces *out);
 /* What the solver has measured at the tip of that id; NULL: nothing. */
 const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);

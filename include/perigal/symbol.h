@@ -99,7 +99,7 @@ typedef struct {
     double k[3];
     /* Its value; which one is said where it is used. */
     double value;
-    /* As in pg_symbol_modes. */
+    /* Shares of rotations, and of displacement along k, in the motion (pg_symbol_modes), 0 to 1. */
     double turning, along;
     /* Number of modes with this value at this k. */
     int    alike;

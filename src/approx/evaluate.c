@@ -163,8 +163,8 @@ static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
     else gather_those (g, i, 1, s);
 }
 
-/* The same of a row that has all its bonds and is no node that expands about itself, of a cloud of one
- * spacing, its bonds rounded (congruent.h); 0: it is none such. */
+/* Collects the bonds of row i in horizons, rounded (congruent.h), if they all live, the row is of no node
+ * that expands about itself, and the cloud has one spacing; 0: it is none such. */
 static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;

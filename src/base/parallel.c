@@ -200,7 +200,7 @@ static void run_with_helpers (int threads, job *jobs)
 }
 
 /* ---- loops --------------------------------------------------------------------------------------------- */
-/* The same with threads started for this loop only. */
+/* Runs the first part here, each other one on a thread started for this loop only, or here if none starts. */
 static void run_with_own (int threads, job *jobs)
 {
     pthread_t id[MAX_THREADS];

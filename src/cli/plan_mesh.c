@@ -103,7 +103,7 @@ void plan_mesh (const pg_problem *p)
             b->smallest, b->largest, b->quality, b->mesh.element_id[b->worst]);
 }
 
-/* The same numbers under fixed keys. */
+/* Counts, sets, volume, surface, sizes and quality of the mesh of a plan as JSON, under fixed keys. */
 void plan_mesh_json (pg_json *j, const pg_problem *p)
 {
     const pg_mesh_body *b = &p->part;

@@ -201,7 +201,7 @@ static void prism (between_gaps *out, const pg_shape *s, const between_way *w, d
     between_gaps_any (out, &a, &b);
 }
 
-/* The same in the axes of a plate: along, across, and normal to it. */
+/* Gaps of a plate as of a prism in its own axes: along, across, and normal to it. */
 static void plate (between_gaps *out, const pg_shape *s, const between_way *w)
 {
     double axis[3][3], grow = s->add ? w->near : -w->near;

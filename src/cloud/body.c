@@ -155,7 +155,7 @@ done:
     return status;
 }
 
-/* Also of a body that was read in part only. */
+/* Frees what a body holds and zeroes it, also where it was read in part only. */
 void pg_body_clear (pg_body *body)
 {
     for (size_t i = 0; body->shape && i < body->n; i++)

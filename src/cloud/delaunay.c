@@ -126,8 +126,8 @@ static double radius_of_triangle (const double e[3][3], double *sign)
     return hypot (a[0], a[1]) * hypot (b[0], b[1]) * hypot (a[0] - b[0], a[1] - b[1]) / (2 * fabs (cross));
 }
 
-/* The same of the sphere through a tetrahedron: |a^2 (b x c) + b^2 (c x a) + c^2 (a x b)| / (2 |a . b x
- * c|). */
+/* Radius of the sphere through a tetrahedron, from the edges a, b, c that leave its first vertex:
+ * |a^2 (b x c) + b^2 (c x a) + c^2 (a x b)| / (2 |a . b x c|); *sign: orientation. */
 static double radius_of_tetrahedron (const double e[3][3], double *sign)
 {
     double sum[3] = { 0, 0, 0 }, volume = 0;

@@ -382,8 +382,8 @@ INLINE void measure_those (const candidates *c, int dim, int shape, const double
     }
 }
 
-/* The same by the measures of stretched supports; the sums over the axes in the order of pg_cloud_length2, so
- * that the tree of family_tree.c agrees about what lies on the edge. */
+/* Squared distances z' A z of the candidates, m^2, by the measures A of their stretched supports; summed over
+ * the axes in the order of pg_cloud_length2, so that the tree of family_tree.c agrees about the edge. */
 INLINE void measure_anisotropic (const candidates *c, int dim, const double *at)
 {
     const double *x = c->x, *y = dim > 1 ? x + c->most : x, *z = dim > 2 ? y + c->most : x, *A[9];

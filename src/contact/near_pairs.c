@@ -45,7 +45,7 @@ done:
     return status;
 }
 
-/* Also of one that was made in part only. */
+/* Frees a search for near pairs and zeroes it, also one that was made in part only. */
 void near_free (near_pairs *s)
 {
     pg_free (s->modulus), pg_free (s->shear), pg_free (s->local), pg_free (s->start), pg_free (s->most);

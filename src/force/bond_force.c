@@ -20,7 +20,7 @@ void point_bonds_at (const bond_force *b, size_t i, int thread, point_bonds *s)
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* Also of a force that was made in part only: all of it began as zeros. */
+/* Frees a force of bonds, also one that was made in part only: all of it began as zeros. */
 void bond_force_free (void **self)
 {
     bond_force *b = *self;

@@ -178,7 +178,7 @@ void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count,
 /* f += sum w B' sigma of the last measure, which was at d */
 void galerkin_sum_stress  (galerkin *g, const double *d, double *f);
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
-/* The same of some points, ascending. */
+/* f += sum w B' D B x of these points of the bulk alone, ascending. */
 void galerkin_sum_list (galerkin *g, size_t count, const size_t *list, const double *x, double *f);
 /* pg_force_type.spared: what runs have spared */
 int  galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds);
@@ -246,7 +246,7 @@ typedef struct {
     double *const *f;
     size_t low, lane, left;
 } galerkin_bundle;
-/* The same with stabilisation, whose groups are points. */
+/* f += stress and stabilisation forces of the nodal values x of a bundle, whose groups are single points. */
 void galerkin_silling_bundle (const galerkin_bundle *bundle);
 /* operator: K x without K, and K */
 pg_status galerkin_operator_create (galerkin *g);

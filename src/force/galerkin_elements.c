@@ -27,7 +27,7 @@
  * evaluation points without stabilisation, whose K hardly sees what alternates from node to node; and the
  * least spread of the nodes of a point, in units of h^2. */
 static const double deviation = 8, free_deviation = 2, least_spread = 0.02;
-/* The same spread for tetrahedra, of their own h^2. */
+/* Least spread of the nodes of a tetrahedron, in units of the h^2 of its own nodes. */
 static const double soft_tetrahedron = 0.4;
 /* Weights at a facet point end there: this many times the squared distance of the farthest node. */
 static const double beyond = 1.2;

@@ -104,7 +104,7 @@ pg_status galerkin_boundary_create (galerkin *g)
     return status == PG_OK ? find_penalties (g) : status;
 }
 
-/* Also of what was made in part only. */
+/* Frees the constraints on facets and nodes, also where they were made in part only. */
 void galerkin_boundary_free (galerkin *g)
 {
     pg_free (g->nitsche), pg_free (g->nitsche_start), pg_free (g->penalty), pg_free (g->penalty_node),

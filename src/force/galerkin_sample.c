@@ -423,8 +423,8 @@ done:
     return status;
 }
 
-/* Those like others by the rows of these; first the ones that are not. Those whose first is no model for
- * others come last. */
+/* Samples places of a lattice: one by one those that share no kept row, then those whose row turns out to
+ * serve nobody else; the rest, which see their nodes alike, by the kept rows. */
 static pg_status sample_alike (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;

@@ -50,7 +50,7 @@ INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u
     for (int c = 0; u && c < 3; c++) u[c] = s[c];
 }
 
-/* The same in one and two dimensions: e is (xx) or (xx, yy, 2 xy). */
+/* u (optional) and strain of a point in 1D or 2D; x: dim numbers a node; e: (xx) or (xx, yy, 2 xy) */
 INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, double *u, double *e)
 {
     size_t offset = pg_rows_offset (r, p);

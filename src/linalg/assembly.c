@@ -255,7 +255,7 @@ pg_sparse *pg_assembly_matrix (pg_assembly *K) { return &K->K; }
 /* Workspaces of a thread: where each node stands in the row at hand (n), what one point gives, and the sums
  * of a source that finishes them. */
 typedef struct { size_t *slot; double *blocks, *sum; } workspace;
-/* Those of all threads, one behind the other: so many numbers each. */
+/* Workspaces of all threads, one after the other: n, nblocks, nsum numbers each. list: rows (NULL: all). */
 typedef struct {
     pg_assembly *K;
     const int *list;

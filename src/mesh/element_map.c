@@ -32,7 +32,7 @@ static void combine (pg_element kind, int dim, const double *x, const double *N,
     else combine_those (nodes, dim, d, x, N, dN, place, J);
 }
 
-/* The same at xi. */
+/* Place and J = dx / dxi of an element at the reference coordinates xi. */
 static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3],
                              double J[3][3])
 {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Also of a mesh that is only half built. */
+/* Frees what a mesh holds and zeroes it, also where it is only half built. */
 void pg_mesh_clear (pg_mesh *mesh)
 {
     for (size_t i = 0; mesh->nodes && i < mesh->nnodes; i++) pg_free (mesh->nodes[i].node);

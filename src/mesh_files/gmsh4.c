@@ -68,7 +68,7 @@ done:
     return status;
 }
 
-/* The same as bytes. */
+/* Parent and partitions of a part of an entity in a binary file; *between 1: it lies between partitions. */
 static pg_status parts_of_bytes (gmsh_reader *g, int dim, int *between)
 {
     pg_status status = PG_OK;
@@ -110,7 +110,7 @@ done:
     return status;
 }
 
-/* The same as bytes. */
+/* An entity in a binary file: tag, box, groups, and what bounds it, which is not read. */
 static pg_status entity_of_bytes (reader *r, int dim)
 {
     pg_status status = PG_OK;
@@ -231,7 +231,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
     pg_status status = PG_OK;
     gmsh_reader number = *g;
     const char *at, *last;
-    /* To the end of the numbers. */
+    /* Go past the numbers of all nodes, one a line. */
     for (long k = 0; k < n; k++) PG_TRY (gmsh_line (g, "the last number of a node", &at, &last));
     for (long k = 0; k < n; k++) {
         long id;
@@ -245,7 +245,7 @@ done:
     return status;
 }
 
-/* The same as bytes; `parameters` numbers behind each position are skipped. */
+/* n nodes in a binary file: all numbers, then all positions, `parameters` numbers behind each are skipped. */
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
 {
     pg_status status = PG_OK;

@@ -29,7 +29,7 @@ static double number_in (const char *path, const char *key)
     return value;
 }
 
-/* The same in a file of a folder. */
+/* The number after `key` in file `name` of a folder (number_in); NAN: no such file, line or number. */
 static double number_at (const char *folder, const char *name, const char *key)
 {
     char path[PATH + 64];

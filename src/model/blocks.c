@@ -140,7 +140,7 @@ static int claim (entries *e, const pg_problem *p, int set, size_t point)
     return found;
 }
 
-/* So many points of a set are claimed by no entry; the first of them is named. */
+/* Faults that `count` points of a set are claimed by no entry of blocks; names the first of them, `point`. */
 static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set, size_t point, size_t count)
 {
     char place[96];

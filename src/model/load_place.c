@@ -404,7 +404,7 @@ done:
     return status;
 }
 
-/* Those of the points found that this process holds, as a set, and their shares alone. */
+/* Keeps of the points found those that this process holds, as the set, and of the shares theirs. */
 static pg_status take_held (place *a, pg_set *set)
 {
     pg_status status = PG_OK;

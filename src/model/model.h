@@ -86,7 +86,7 @@ void      pg_remark_small_shapes (pg_problem *problem);
 void      pg_remark_thin_walls   (pg_problem *problem);
 void      pg_remark_units    (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_clouds   (pg_problem *problem);
-/* The same of graded points, meshes and interfaces (remark_mesh.c); interfaces: once the bonds are there. */
+/* Remarks on graded points, meshes and (once bonds are there) interfaces: remark_mesh.c; parts, contrast. */
 pg_status pg_remark_hanging  (pg_problem *problem);
 void      pg_remark_plane    (pg_problem *problem);
 void      pg_remark_graded   (pg_problem *problem, const pg_scene *scene);

@@ -19,7 +19,7 @@ typedef struct {
     double  total;
     /* Left, top, width and height of the legend; width 0: there is none. */
     double  legend[4];
-    /* The same of the text of each of the first marks; width 0: it has no text. */
+    /* Left, top, width and height of the texts of the first marks, pixels; width 0: there is no text. */
     double  note[CHART_NOTES][4];
 } chart;
 /* 1 if the place can be drawn: both values are finite, and positive where the axis is

@@ -48,7 +48,7 @@ static double farthest (const pg_problem *p, const pg_load *load, int k)
     return most_of_ranks (size);
 }
 
-/* The same of a platen. */
+/* How far a platen moves along the axis k at most, m: at t = 1, with stages of loading at the end of each. */
 static double farthest_platen (const pg_problem *p, const pg_load *load, int k)
 {
     static const double anywhere[3] = { 0 };

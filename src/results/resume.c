@@ -246,7 +246,7 @@ static resumed memory_of (pg_result *r, pg_state *state, const char *path)
                      .pending = r->pending };
 }
 
-/* The same bytes that a file would get, for comparisons of states. */
+/* Passes the bytes that a checkpoint would get to a keeper (no reading one), for comparisons of states. */
 pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
 {
     resumed m = memory_of (r, state, "the checkpoint");

@@ -13,7 +13,7 @@ typedef struct { const pg_key **row; size_t n; } pg_schema;
 
 /* All rows of these tables as one list. PG_E_MEMORY. */
 pg_status pg_schema_create (pg_schema *s, const pg_key_table *table, size_t ntable);
-/* Those of the tables of all folders. PG_E_MEMORY. */
+/* All rows of the key tables of all folders as one list. PG_E_MEMORY. */
 pg_status pg_schema_of_all (pg_schema *s);
 void      pg_schema_clear  (pg_schema *s);
 /* Appends `.name`, or `.{}` where the user chooses names (returns 2); 0: no such key, the pattern is kept. */

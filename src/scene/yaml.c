@@ -117,7 +117,7 @@ static void locate (pg_node *at, const char *text, size_t length, size_t offset)
 static int has_tab (const char *text, size_t length, int line, int column)
 {
     size_t k = 0;
-    /* To the beginning of the line. */
+    /* k becomes the offset of the line's beginning. */
     for (; line > 1 && k < length; k++) line -= text[k] == '\n';
     for (; column > 0 && k < length && text[k] != '\n'; k++, column--)
         if (text[k] == '\t') return 1;

@@ -73,7 +73,7 @@ done:
     return status;
 }
 
-/* Also of one that was made in part only; NULL is allowed. */
+/* Frees a session, also one that was made in part only; NULL is allowed. */
 void pg_session_close (pg_session **session)
 {
     pg_session *s = *session;
@@ -160,7 +160,7 @@ done:
     return status;
 }
 
-/* The same bond between points, seen from its other end; SIZE_MAX: that end does not see it. */
+/* Number of a bond between points as its other end has it; SIZE_MAX: that end does not see it. */
 static size_t other_end (const pg_problem *p, size_t bond)
 {
     int set;

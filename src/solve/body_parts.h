@@ -28,8 +28,8 @@ pg_status body_parts_find  (body_parts *out, const pg_system *s);
 void      body_parts_clear (body_parts *parts);
 /* Displacement of the point at x by such a motion. */
 void      body_part_move (const body_part *part, int dim, const double *x, const double *motion, double *u);
-/* The same of all unknowns of the point, with rotations of its own (times the spacing, as micropolar forces
- * have them), m. u: 6 */
+/* Displacement, m, of all unknowns of the point at x by a rigid motion of its part, with rotations of its own
+ * (times the spacing, as micropolar forces have them). u: 6 */
 void      body_part_shift (const pg_system *s, const body_part *part, const double *x, const double *motion,
                            double *u);
 /* "500 of its 1000 points, around (x, y) m"; "along (0, 1)", "about z through (x, y) m". */
@@ -41,8 +41,8 @@ void      body_part_way   (const pg_problem *p, const body_part *part, const dou
 /* PG_E_EQUILIBRIUM with the part, its free directions and what its loads leave unbalanced along them, if
  * there is one whose loads at t, forces of contact at hand included, do not balance each other. */
 pg_status body_parts_judge (pg_system *s, double t);
-/* The same before the first step: parts that are free to move under loads that balance are told of, and
- * remembered (pg_system.floating). */
+/* Judges the loads before the first step as body_parts_judge does (PG_E_EQUILIBRIUM); parts that are free to
+ * move under loads that balance are told of, and remembered (pg_system.floating). */
 pg_status body_parts_begin (pg_system *s, double t);
 /* Parts that are remembered go back to where their mean displacement and rotation are none: of all equilibria
  * that differ by their motions the one that does not depend on what has solved for it. */

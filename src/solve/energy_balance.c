@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* The same of a state at rest and in balance, for what the boundary costs where the force can do so. */
+/* Accounts for the work up to a state at rest, in balance, at the cost of the boundary if the force can. */
 pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale)
 {
     pg_status status = PG_OK;

@@ -24,7 +24,7 @@ typedef struct {
 /* Around bonds i with near[i] >= cut. *share: of all bonds that it holds; too many: no group is made. */
 pg_status event_zone_make  (event_zone *z, const pg_system *sys, const pg_state *state, const double *near,
                             double cut, double most, double *share);
-/* The same from the levels of the nodes, which a checkpoint keeps; room for them. */
+/* Makes the group from the levels of the nodes, which a checkpoint keeps; room for both (event_zone_room). */
 pg_status event_zone_fill  (event_zone *z, const pg_system *sys, double most, double *share);
 pg_status event_zone_room  (event_zone *z, const pg_problem *p);
 void      event_zone_clear (event_zone *z);

@@ -183,7 +183,7 @@ void      facet_faces_clear  (facet_faces *faces);
 /* From the stress at d, before the cut. */
 pg_status facet_faces_before (const break_loop *b, const pg_state *state, const double *d, const double *from,
                               const double *to, facet_faces *out);
-/* The same on the nodes, N (ndof), after it, the caches of the force being fresh. */
+/* Forces that contact goes on bearing, on the nodes, N (ndof), after the cut, caches of the force fresh. */
 pg_status facet_faces_bear   (const break_loop *b, const pg_state *state, const facet_faces *faces,
                               double *nodal);
 

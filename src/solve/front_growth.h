@@ -50,7 +50,7 @@ pg_status fronts_run_out (break_loop *b, pg_state *state, int *grew);
 /* ---- front_initiation.c -------------------------------------------------------------------------------- */
 /* Offers new cracks (facet_offer) where strength and energy allow them below the load of the next growth. */
 pg_status fronts_offer_starts (break_loop *b, const pg_state *state, const double *const *d, const double *t);
-/* Such a crack comes into being. */
+/* Begins a new crack that was offered, a disc: its surface comes into being, and the bonds through it die. */
 pg_status fronts_start   (break_loop *b, pg_state *state, const facet_candidate *c);
 
 /* Open fronts that show nothing anywhere; where none is open and none can begin: 1. */

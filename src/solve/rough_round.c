@@ -82,7 +82,7 @@ static int decides (size_t n, const double *now, const double *rougher, double t
     return top - error > 1;
 }
 
-/* The same of the bonds of the last look. */
+/* *yes: do both iterates leave no doubt which bonds of the last look break? top: largest utilisation. */
 static pg_status decides_all (break_loop *b, double top, int *yes)
 {
     pg_status status = PG_OK;

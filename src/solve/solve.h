@@ -185,8 +185,8 @@ void      system_multiply (const pg_system *s, const double *x, double *y);
 enum { BY_DIAGONAL, BY_FACTOR, BY_ELEMENTS };
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
                           size_t *used);
-/* The same by conjugate gradients with a preconditioner of several levels, by the rows of K (multilevel; K
- * alone) or by finite elements, made when needed (preconditioner.c). */
+/* Solves (k K + m M) delta = reduced by conjugate gradients with a preconditioner of several levels, by the
+ * rows of K (multilevel; K alone) or by finite elements, made when needed (preconditioner.c). */
 pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, double tolerance);
 /* Of k K + m M, from the last refresh. */
 pg_status system_make_preconditioner (pg_system *s, double k, double m);
@@ -228,12 +228,12 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
 /* The out-of-balance force of (t, d), from the force itself, relative to what it is measured against. */
 pg_status system_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative);
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
-/* The same with the forces of contact that are at hand. */
+/* d becomes the equilibrium at t under the contact forces at hand; *residual, errors as with system_solve. */
 pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
-/* The same to a residual `share` times that of d only, nothing being judged; rough.before is an earlier, ten
- * times rougher iterate. With rough.look: to that share or what exact solutions need at least, or less far
- * where it stops them. *done 0: the way to solve is not fit for it, d has almost as small a residual as is
- * asked of exact solutions, or there was no earlier iterate. */
+/* Solves for d at t down to a residual `share` times that of d only, nothing being judged; rough.before is an
+ * earlier, ten times rougher iterate. With rough.look: to that share or what exact solutions need at least,
+ * or less far where it stops them. *done 0: the way to solve is not fit for it, d has almost as small a
+ * residual as is asked of exact solutions, or there was no earlier iterate. */
 pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
                                 int *done);
 /* to = d + T x, x of nred unknowns */
@@ -302,7 +302,7 @@ long      break_loop_over   (const break_loop *b, const pg_state *state, double 
 /* The work_balance of (t, d), and with it the work done between the last accounted state and this one (loads
  * scaled by `scale`). */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
-/* The same of a static state in equilibrium. */
+/* break_loop_account_rest (below): work balance and work of a static state in equilibrium. */
 /* force_balance.c: do forces and moments of this state balance? Adds to the report; at the end warns. f:
  * what acts on nodes beside loads and supports, inertia among it (ndof; NULL: nothing). In motion at some
  * steps. */
@@ -345,7 +345,7 @@ void   options_read_times (pg_solver_options *o, const pg_problem *problem, cons
  * options.scene knows it. */
 pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
-/* The same of PG_E_USAGE from a folder that knows no keys, its message being the last one; else `status`. */
+/* PG_E_USAGE of a folder without keys becomes PG_E_SCENE at `key`, by its last message; else `status`. */
 pg_status options_blame (pg_status status, const pg_solver_options *o, const char *key);
 
 /* ---- stage_path.c: stages of loading (problem->stage) -------------------------------------------------- */

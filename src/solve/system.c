@@ -25,7 +25,7 @@ static void let_go (pg_system *s)
     s->own_diagonal = s->copy = NULL, s->owned = 0;
 }
 
-/* Also of a system that was made in part only. */
+/* Frees what a system of equations holds, also where it was made in part only. */
 void system_free (pg_system *s)
 {
     let_go (s);
@@ -243,7 +243,7 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     }
 }
 
-/* The same of K: at rest, where nothing breaks, one factor serves the whole run. */
+/* Frees the matrix made for a factor; K too at rest where nothing breaks: one factor serves the whole run. */
 static void let_all_go (pg_system *s, const dynamics *dyn)
 {
     let_go (s);
@@ -495,8 +495,8 @@ done:
     return status;
 }
 
-/* The same of ranks that share the body, in iterations: a preconditioner of several levels is made when those
- * beyond a few would have paid for it. */
+/* Leaves the diagonal where ranks share the body, counted in iterations: for a preconditioner of several
+ * levels, when those beyond a few would have paid for it. */
 enum { SHARED_SET_UP = 150 };
 static pg_status leave_for_shared (pg_system *s, const dynamics *dyn, size_t used)
 {

@@ -18,7 +18,7 @@
 
 /* More unknowns than this beside a cut: the cut body is solved anew instead. */
 enum { MOST_COLUMNS = 3000, AT_ONCE = 64 };
-/* So many times as large as their sum may terms be that cancel each other. */
+/* Terms that cancel may be this many times as large as their sum; beyond, the cut body is solved anew. */
 static const double most_lost = 30;
 
 /* What one stage of a cut changes, as entries of the upper triangle of K and on the unknowns. */

@@ -42,8 +42,8 @@ static void count (pg_trial *t, const pg_problem *p, const pg_state *state, cons
     t->value[PG_TRIAL_POINTS] = (double) p->cloud.n, t->value[PG_TRIAL_DOFS] = (double) state->ndof;
 }
 
-/* The same loop as in `perigal run`, without progress and interruption. Seconds and memory are
- * taken before the error is measured. Pictures and report are not written: they would count as
+/* Solves by the loop of `perigal run`, without progress and interruption, and measures errors. Seconds and
+ * memory are taken before the error is measured. Pictures and report are not written: they would count as
  * cost. */
 static pg_status solve_and_measure (pg_trial *t, const char *folder, const pg_scene *scene,
                                     const pg_problem *problem, double start)

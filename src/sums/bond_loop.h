@@ -41,7 +41,7 @@ extern const pg_bond_loop_kind pg_bond_loop_stencil, pg_bond_loop_list, pg_bond_
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);
-/* The same for what each thread has found, or failed to note; leaves nothing found and nothing failed,
- * whatever it returns. */
+/* Adds the bonds that each thread has found to the end of `to`, ascending; returns the failure of a thread
+ * that could not note its own. Leaves nothing found and nothing failed, whatever it returns. */
 pg_status pg_changes_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed);
 #endif

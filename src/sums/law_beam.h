@@ -105,7 +105,7 @@ INLINE void beam_force_add (int dim, const V *own, const V *other, const V *term
     UNROLL for (int c = 0; c < sums; c++) out[c] = V_KEEP (out[c], live);
 }
 
-/* The same for energies, which need no limits. */
+/* What energy loops read and sum: places and unknowns of both ends, as limits are not needed; one number. */
 INLINE int beam_store_columns (int dim, int check) { (void) check; return beam_known (dim); }
 INLINE int beam_store_sums (int dim) { (void) dim; return 1; }
 enum { beam_store_first = 0, beam_store_terms = 3, beam_store_shared = 0 };

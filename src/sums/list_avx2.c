@@ -66,7 +66,7 @@ static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m2
         TAKE2 (sum, o, 2, _mm256_extractf128_pd (l_, 1)); \
         TAKE2 (sum, o, 3, _mm256_extractf128_pd (h_, 1)); \
     } while (0)
-/* The same in space: three components and a zero for each end. */
+/* Subtracts forces in space from the sums of the other ends, one by one: three components and a zero each. */
 #define GIVE3(sum, o, f) \
     do { \
         __m256d t_[4]; \

@@ -14,7 +14,7 @@ typedef struct {
 
 static const char *refusal (const pg_bond_loop_setting *setting) { (void) setting; return NULL; }
 
-/* Also of an object that was never completed. */
+/* Frees a list of pair bonds, also one that was never completed; NULL is allowed. */
 static void release (void *self)
 {
     pair_list *s = self;

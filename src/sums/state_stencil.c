@@ -24,7 +24,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return why ? why : pg_stencil_loop_refusal (setting);
 }
 
-/* Also of an object that was never completed. */
+/* Frees the loops of state-based sums, also an object that was never completed; NULL is allowed. */
 void pg_state_loop_free (void *self)
 {
     state *s = self;
