@@ -112,18 +112,18 @@ pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, 
  * facets from their faces that border on none (a staircase). An empty lattice (points from a file) gives no
  * cells. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
-/* Those alone that lie in a box of the lattice (of which this may be a part: indices in the whole); the
- * others count as kept, so that the body has no surface where the box ends. */
+/* Cells and facets of pg_cells_from_lattice, but only of boxes in `within` (indices in the whole lattice, of
+ * which this may be a part); kept boxes beyond count as cells: the body has no surface where it ends. */
 pg_status pg_cells_from_part (pg_cells *out, const pg_lattice *lattice, double thickness,
                               const pg_box *within);
 /* A ray in the xy plane (in 3D a half-plane parallel to z) from `centre` (m) in the unit vector
  * `direction`. */
 typedef struct { double centre[2], direction[2]; } pg_ray;  /* in the xy plane; direction of unit length */
-/* The same lattice over the exact body. A box that the surface crosses becomes a cell of kind PG_CUT; it is
- * kept while its share of the volume of a whole box exceeds 1e-13, wherever its centre lies. Facets are
- * pieces of the surface, one for each pair of cell and surface, divided further along the rays given (ends
- * of the angle ranges of sets, so that every facet is wholly inside or outside a range). The shapes of the
- * body are borrowed and must outlive the cells. Where nothing is cut the result is that of
+/* Cells of the lattice, cut by the exact surface of the body. A box that the surface crosses becomes a cell
+ * of kind PG_CUT; it is kept while its share of the volume of a whole box exceeds 1e-13, wherever its centre
+ * lies. Facets are pieces of the surface, one for each pair of cell and surface, divided further along the
+ * rays given (ends of the angle ranges of sets, so that every facet is wholly inside or outside a range). The
+ * shapes of the body are borrowed and must outlive the cells. Where nothing is cut the result is that of
  * pg_cells_from_lattice. */
 pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness,
                         size_t nray, const pg_ray *ray);

@@ -131,7 +131,7 @@ typedef struct {
  * Qhull is not installed; PG_E_LIMIT: it could not triangulate the points; PG_E_MEMORY. */
 pg_status pg_alpha_shape_create (pg_alpha_shape *out, int dim, size_t n, const double *x, double alpha);
 void      pg_alpha_shape_clear  (pg_alpha_shape *shape);
-/* That of a shape of this kind, else NULL. */
+/* The alpha shape that a shape of kind PG_ALPHA_SHAPE holds, borrowed; NULL: the shape is of another kind. */
 const pg_alpha_shape *pg_shape_alpha (const pg_shape *shape);
 
 /* ---- background lattice -------------------------------------------------------------------------------- */
@@ -264,9 +264,9 @@ typedef struct {
  * then perturbed reproducibly, but only points with kept cells all around. Or read from `points: FILE`; the
  * lattice is empty then (dim = 0). PG_E_SCENE, PG_E_MEMORY. */
 pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene);
-/* The same of the subdomain of this rank, with a layer of ghosts of `width` (m) around it: only these points
- * and their part of the lattice are made (out->subdomain). Without ranks it is pg_cloud_build, and of points
- * of a file, which pg_cloud_divide divides. */
+/* Points of the scene for the subdomain of this rank, with a layer of ghosts of `width` (m) around it: only
+ * these and their part of the lattice are made (out->subdomain). Without ranks, and of points of a file,
+ * which pg_cloud_divide divides, it makes all points, as pg_cloud_build. */
 pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
                                double width);
 /* Of points that no lattice gives, all of which every rank has read: who owns each (pg_free), by recursive
@@ -357,8 +357,8 @@ enum { PG_RADIAL, PG_TENSOR };
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,
                            double reach, int shape, int closed);
 void      pg_family_clear (pg_family *family);
-/* The same in two steps, for many centres or for several lots of them: the points sorted once, then families
- * found by any number of threads, always the same ones. The search borrows the cloud. */
+/* Families in two steps, for many centres or several lots of them: create sorts the points once, find lists
+ * the families of n centres by any number of threads, always the same ones. The search borrows the cloud. */
 typedef struct pg_family_search pg_family_search;
 pg_status pg_family_search_create (pg_family_search **out, const pg_cloud *cloud, double reach, int shape,
                                    int closed);
@@ -418,7 +418,7 @@ long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_
 #define PG_NEAREST_MOST 16
 size_t    pg_nearest_all    (const pg_nearest *nearest, const double *place, double same, pg_refuse refuse,
                              void *context, size_t *point /* PG_NEAREST_MOST */);
-/* The same; where all are refused, of all points. */
+/* Number of points as near as the nearest up to `same` (m); refused ones count only where all are refused. */
 size_t    pg_nearest_seen   (const pg_nearest *nearest, const double *place, double same, pg_refuse refuse,
                              void *context, size_t *point /* PG_NEAREST_MOST */);
 
@@ -524,7 +524,7 @@ double pg_segment_nearest (const double *a, const double *b, const double *x, do
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
 /* 0: no crack can cut a bond inside this box (low, high: dim), as its boxes tell; else 1. */
 int pg_cracks_near (const pg_cracks *cracks, const double *low, const double *high);
-/* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */
+/* First of the cracks that the bond x - y meets, or on which x lies, within `tolerance` (m); NULL: none. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, const double *x, const double *y,
                                double tolerance);
 const pg_crack *pg_cracks_touch (const pg_cracks *cracks, const double *x, double tolerance);

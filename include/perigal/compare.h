@@ -172,8 +172,8 @@ typedef struct { const pg_material *material; const int *which; const pg_express
  * know all components of the dimension. PG_E_SINGULAR: a law without an inverse. */
 pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value,
                             const pg_sampler *reference, const pg_norm_options *options);
-/* The same over the background cells of a problem, with `order` Gauss points per direction and the laws of
- * its materials; cells are taken in parts, so that memory is that of one part. where: as above. */
+/* Norms of value against reference over the background cells of a problem, with `order` Gauss points per
+ * direction and the laws of its materials, in parts of the cells to save memory. where: condition or NULL. */
 pg_status pg_norms_of_cells (pg_norms *out, const pg_problem *problem, int order, const pg_expression *where,
                              const pg_sampler *value, const pg_sampler *reference);
 

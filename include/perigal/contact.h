@@ -142,7 +142,7 @@ pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, cons
 pg_status pg_contact_overlap (double *overlap, const pg_contact_pieces *pieces, const pg_force_type *force,
                               void *self, const pg_state *state, const double *d);
 
-/* The same from the displacement, or jump, at the points. */
+/* Mean gaps and slips of the pieces as G' (unknowns x dim n), from displacements or jumps at their points. */
 pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
                               const pg_jump_rows *jump);
 
@@ -157,8 +157,8 @@ double pg_platen_touches (const pg_contact_pieces *pieces, const pg_platen *plat
 /* What the gap and the slips of piece k gain by each of six motions of its platen: translations along x, y, z
  * (per m), rotations about axes through `about` (m, per rad). row: dim x 6. */
 void pg_platen_row (const pg_contact_pieces *pieces, size_t k, const double *about, double *row);
-/* The same by the bonds that crossed the cracks (pg_force_type.faces): soft, m/N (dim n), is the compliance
- * of the layer between the faces, *stiffer how much stiffer than those bonds it may be. */
+/* G' of the gaps and slips of pieces by the bonds that crossed the cracks (pg_force_type.faces); soft, m/N
+ * (dim n): compliance of the layer between faces; *stiffer: how much stiffer than those bonds it may be. */
 pg_status pg_contact_layer (pg_sparse *out, double *soft, double *stiffer, const pg_contact_pieces *pieces,
                             const pg_force_type *force, void *self, const pg_state *state);
 
@@ -214,11 +214,11 @@ double    pg_short_range_rate   (const pg_short_range *contact);
  * points have moved so far that one may be missing. The same bits for any number of threads. */
 pg_status pg_short_range_add    (pg_short_range *contact, const pg_state *state, const pg_changes *broken,
                                  int changed, const double *v, double dt, double way, double *f);
-/* The same by impulses (setting.impulses): the forces with which no pair ends the time step to come nearer
- * than its contact distance (or than it is, where a bond broke under pressure). Contact takes no energy:
- * pairs part as fast as they met (Moreau 1988, impact without loss), in the ways of leapfrog's two steps;
- * friction holds them across their line with at most coefficient F_n. Momentum, and moment of momentum, are
- * kept to rounding. now->energy: what pairs have taken of the motion and give back in the step to come. */
+/* Contact of points by impulses (setting.impulses): adds to f, N, the forces with which no pair ends the next
+ * time step nearer than its contact distance (or than it is, where a bond broke under pressure). Contact
+ * takes no energy: pairs part as fast as they met (Moreau 1988, impact without loss), in the ways of
+ * leapfrog's two steps; friction holds them across their line with at most coefficient F_n. Momentum and its
+ * moment are kept to rounding. now->energy: what pairs took of the motion and give back in the next step. */
 typedef struct {
     /* ways of the unknowns in the last step, and in the next one without contact, m (n x stride) */
     const double *back, *ahead;

@@ -52,7 +52,7 @@ const pg_integration_type *pg_integration_of (const pg_scene *scene, int needed)
  * within the body); cell holds the number of the cell, and the weights of each cell sum to its volume.
  * PG_E_MEMORY. */
 pg_status pg_cell_points (pg_quadrature *out, const pg_cells *cells, double thickness, int order);
-/* The same in the cells first .. last - 1, so that large bodies can be integrated over in parts. */
+/* Gauss-Legendre points in the cells first .. last - 1, so that large bodies can be integrated in parts. */
 pg_status pg_cell_points_of (pg_quadrature *out, const pg_cells *cells, double thickness, int order,
                              size_t first, size_t last);
 /* Gauss points on every facet (order^(dim - 1) on bars and quadrilaterals), with normals; cell holds the
@@ -108,7 +108,7 @@ typedef struct {
     pg_rows   face;
     /* The nodes that the points of each cell, or the points of its faces, see. */
     pg_family cell_family;
-    /* The same for every evaluation point: the list of its cell. */
+    /* Nodes of every evaluation point: the list of its cell in cell_family. */
     pg_family family;
     /* Evaluation points of cell c: first[c] .. first[c + 1] - 1 (cells + 1). */
     size_t   *first;

@@ -229,8 +229,8 @@ typedef struct {
     /* How many horizons of ghosts its points and their bonds need around a subdomain (perigal/ranks.h);
      * 0: the force cannot be divided among ranks so far. */
     double    ghosts;
-    /* The same of forces that are evaluated in cells, in spacings more than that, and how many of these lie
-     * around what is owned: how wide the layer of cells is beyond one horizon. NULL: no such force. */
+    /* Forces evaluated in cells: spacings by which the layer of ghosts is wider than `ghosts` horizons;
+     * *beyond: spacings by which the layer of cells around owned points exceeds one horizon. NULL: others. */
     double  (*ghost_cells) (const pg_scene *scene, double *beyond);
     /* Completes what failure criteria derive their constants from. NULL: nothing to add. */
     pg_status (*limits) (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
@@ -367,9 +367,9 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
                                    int threads);
 pg_status pg_problem_complete (pg_problem *problem, const pg_scene *scene);
 void      pg_problem_free  (pg_problem **problem);
-/* The same discretisation without loads, supports, cracks and failure, all of its material with the largest
- * Poisson's ratio; the one load left is a traction of zero on all facets, and PG_FACETS are points on all of
- * them (none without shape functions). It borrows from `problem`. */
+/* The discretisation of `problem` without loads, supports, cracks and failure, all of its material with the
+ * largest Poisson's ratio; the one load left is a traction of zero on all facets, and PG_FACETS are points on
+ * all of them (none without shape functions). *out borrows from `problem`. */
 pg_status pg_problem_bare  (pg_problem **out, const pg_problem *problem);
 void      pg_problem_bare_free (pg_problem **bare);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
@@ -438,7 +438,7 @@ int       pg_problem_grows (const pg_problem *problem);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
 /* every load is a constant pattern and t times another, t from 0 to 1 */
 int       pg_problem_affine (const pg_problem *problem);
-/* The same problem with tables of loads of its own, for a run whose stages may end early; all else is
+/* A copy of the problem with tables of loads of its own, for a run whose stages may end early; all else is
  * borrowed. */
 pg_status pg_problem_staged      (pg_problem **out, const pg_problem *problem);
 void      pg_problem_staged_free (pg_problem **staged);
@@ -578,7 +578,7 @@ double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t
 double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size_t tip, double limit,
                           double *place, int *what);
 double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
-/* The same about another place of the path of that tip (2, m); branches of the path count, too. */
+/* Distance from x (2, m) on a tip's path to surface, other path, branch or open tip, m, at most `limit`. */
 double    pg_path_room (const pg_problem *problem, const pg_state *state, size_t tip, const double *x,
                         double limit);
 /* Is a piece passed on the way from the tip along its path to the other end? */
@@ -692,8 +692,8 @@ pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene, const pg
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *problem);
 /* Replaces pairs and factor by those of an analysis (pg_assembly_graph, pg_linear_forecast). */
 void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops);
-/* The same body at another spacing, by scaling; another linear solver or integration: set linear, nodal and
- * sum anew. */
+/* Forecast for the same body at another spacing (m), by scaling; for another linear solver or integration:
+ * set linear, nodal and sum anew. */
 pg_forecast pg_forecast_at    (const pg_forecast *f, double spacing);
 void        pg_forecast_sum   (pg_forecast *f);        /* bytes and peak from the counts */
 /* What a rank needs that holds this part of the `total` points; collects: it also puts the result together.

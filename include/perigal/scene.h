@@ -54,7 +54,7 @@ typedef struct {
     /* For PG_NAME: "static|newmark". "sets.{}|left|right": also any name of that map of the scene (or a
      * part of it, NAME.top). NULL: choices_of gives them. */
     const char *choices;
-    /* The same from a catalogue. */
+    /* For PG_NAME: gives the allowed names of a catalogue, "a|b|c"; NULL: `choices` has them. */
     const char *(*choices_of) (void);
     /* Of the keys of one parent with the same "name:one" exactly one must be given; with "name:most" at
      * most one. */
@@ -99,17 +99,17 @@ typedef struct pg_scene pg_scene;
 /* Reads and checks a file. PG_E_SCENE: pg_last_error has all faults, one per line, such as
  * `plate.yaml:14:5: materials.rock.poissons_ratio = 0.6: must lie in [0, 0.5)`. PG_E_FILE, PG_E_MEMORY. */
 pg_status pg_scene_load   (pg_scene **out, const char *path);
-/* The same with overrides "key=value" (value is YAML), applied before the checks. */
+/* Reads and checks a file with overrides "key=value" (value is YAML), applied before the checks. */
 pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set);
-/* The same, so that one pass reports all faults: a scene that is wrong only beside its geometry (materials,
- * failure, blocks, boundary, initial, solver, output, reference) is returned with PG_OK. pg_scene_partial
- * is 1 then, its faults do not stop later checks (pg_scene_pass), and of a problem only the geometry may be
- * built: pg_problem_prepare does that and returns all faults. */
+/* Reads a file with overrides so that one pass reports all faults: a scene that is wrong only beside its
+ * geometry (materials, failure, blocks, boundary, initial, solver, output, reference) is returned with PG_OK.
+ * pg_scene_partial is 1 then, its faults do not stop later checks (pg_scene_pass), and of a problem only the
+ * geometry may be built: pg_problem_prepare does that and returns all faults. */
 pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set);
 int       pg_scene_partial (const pg_scene *s);
 /* From memory; `name` stands for the file in messages. */
 pg_status pg_scene_parse  (pg_scene **out, const char *text, const char *name);
-/* The same with overrides as in pg_scene_load_with. */
+/* Reads and checks a scene from memory with overrides as in pg_scene_load_with; name: for messages. */
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
                                const char *const *set);
 void      pg_scene_free   (pg_scene **scene);

@@ -100,7 +100,7 @@ static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, int f, siz
     cells_put_face (out, at, f, l->step);
 }
 
-/* The same walk as in `count`, now writing. */
+/* Writes the cells wanted and their facets, in the order in which `count` counts them. */
 static void fill (pg_cells *out, const pg_lattice *l, const pg_box *within)
 {
     size_t cell = 0, facet = 0;

@@ -157,7 +157,7 @@ static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
     for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);
 }
 
-/* The same file that is left in the folder, copied to stdout. */
+/* Copies compare.json, which is left in the result folder, to stdout. */
 static pg_status print_json (const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

@@ -38,9 +38,9 @@ int  between_convex (const pg_shape *shape);
 
 /* Faces of meshes: segments or triangles in a tree of boxes. */
 typedef struct between_faces between_faces;
-/* Those through which a way can leave the body and come back: the faces of the surface, unless all nodes
- * of the surface lie behind the plane of the face (alone: 1; 0: all faces, as other shapes may lie
- * there). NULL: there are none. */
+/* Tree of the faces of a mesh through which a way can leave the body and come back: those of the surface,
+ * unless all nodes of the surface lie behind the plane of the face (alone: 1; 0: all faces, as other shapes
+ * may lie there). *out NULL: there are none. */
 pg_status between_faces_create (between_faces **out, const pg_mesh *mesh, int alone);
 void      between_faces_free   (between_faces **faces);
 /* Gaps of the way; a way that meets no face has none. */

@@ -19,8 +19,8 @@ enum { CRACK_DISC, CRACK_RECTANGLE, CRACK_ELLIPSE };
 /* What the scene asks for. */
 typedef struct {
     uint32_t seed;
-    /* As many cracks, or until their slots make this part of the body, or until their length (area) per area
-     * (volume) of the body is this, 1/m; 0: not given. */
+    /* Number of cracks; or part of the body that their slots make; or their length (area) per area (volume)
+     * of the body, 1/m: cracks are placed until this is reached; 0: not given. */
     long   count;
     double fraction, intensity;
     crack_distribution length, angle;

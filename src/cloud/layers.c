@@ -114,7 +114,7 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
     double step[3] = { 0 }, first[3], last[3];
     for (int k = 0; k < body->dim; k++) {
         first[k] = high[k], last[k] = low[k];
-        /* As many places as the lattice has cells, but not more than MOST_LOOKS along an axis. */
+        /* Places looked at along an axis: as many as cells of the lattice, but at most MOST_LOOKS. */
         double cells = fmax (1, floor ((high[k] - low[k]) / spacing + 0.5));
         if (k != normal) count[k] = (int) (cells = fmin (cells, MOST_LOOKS));
         step[k] = (high[k] - low[k]) / cells;

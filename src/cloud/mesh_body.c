@@ -294,7 +294,7 @@ done:
     return status;
 }
 
-/* As in pg_body_read: a body too far from the origin loses its size in rounding. */
+/* A fault for a mesh too far from the origin, whose size is lost in rounding (of shapes: pg_body_read). */
 static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const char *key)
 {
     for (int k = 0; k < m->dim; k++) {
@@ -335,7 +335,7 @@ pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene)
     return mesh_body_at (out, scene, "mesh");
 }
 
-/* Also of one that was read in part only. */
+/* Frees what the body holds and zeroes it, also one that was read in part only. */
 void pg_mesh_body_clear (pg_mesh_body *body)
 {
     pg_mesh_clear (&body->mesh);

@@ -75,7 +75,7 @@ done:
     return status;
 }
 
-/* Those that no crack of the state cuts, each pair of points once. */
+/* Lists dead bonds that no crack of the state cuts, between points that are no rubble; each pair once. */
 static pg_status list_broken (faces *w, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;

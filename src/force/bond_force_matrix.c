@@ -117,7 +117,7 @@ static int is_whole (const bond_force *b, size_t i)
     return was_whole (b, i) && !(b->alive && memchr (b->alive + b->family->start[i], 0, family_size (b, i)));
 }
 
-/* The same for pg_couplings.alike. */
+/* pg_couplings.alike: 1 where point i has the row of K that all whole points share. */
 static int has_shared_row (void *context, size_t i) { return is_whole (context, i); }
 
 typedef struct { const bond_force *b; double *out; const double *mass; } job;

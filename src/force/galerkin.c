@@ -17,7 +17,7 @@ static size_t galerkin_fields (const void *self, size_t max, pg_field *out)
     return 1;
 }
 
-/* Also of a force that was made in part only. */
+/* Frees the force, also one that was made in part only. */
 static void galerkin_free (void **self)
 {
     galerkin *g = *self;
@@ -226,9 +226,9 @@ done:
     return status;
 }
 
-/* The same by K x, one pass over the shape functions instead of two. Loads do not depend on d; only supports
- * ask for it. With a projected dilatation K x has the flux through supported facets already (Nitsche), which
- * the boundary adds too. */
+/* Residual and reference, N, as galerkin_balance, by K x: one pass over the shape functions instead of two.
+ * Loads do not depend on d; only supports ask for it. With a projected dilatation K x has the flux through
+ * supported facets already (Nitsche), which the boundary adds too. */
 static pg_status galerkin_balance_lean (void *self, double t, const double *d, double *residual,
                                         double *reference)
 {
@@ -317,9 +317,9 @@ done:
     return status;
 }
 
-/* The same at the cost of the boundary: facets and, where something acts there, nodes are measured, and half
- * the work of all pairs is what is stored, at rest and in balance. Reactions of eliminated unknowns need
- * forces of the whole body, as a body force needs its displacements: then it is the dear way. */
+/* Work balance at rest and in balance, at the cost of the boundary: facets and, where something acts there,
+ * nodes are measured, and half the work of all pairs is what is stored. Reactions of eliminated unknowns need
+ * forces of the whole body, as a body force needs its displacements: then galerkin_work_balance does it. */
 static pg_status galerkin_equilibrium_balance (void *self, double t, const double *d, pg_work_balance *out)
 {
     galerkin *g = self;

@@ -95,7 +95,7 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
     if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
 }
 
-/* The same for all points of a cell, whose shape functions are summed over it. */
+/* B_a' D B_b w summed over all points of a cell, which share the nodes of the cell; no stabilisation. */
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out)
 {
     galerkin *g = context;

@@ -63,7 +63,7 @@ static void measure_part (const galerkin *g, size_t c, int k, part *a, double *v
     if (!(a->size > 0)) a->size = 1;                   /* one point: constant */
 }
 
-/* As many polynomials as the part bears: linear ones where it has most of the patch's volume and its
+/* Chooses the polynomials of a part of a patch: linear ones where it has most of the patch's volume and its
  * points span all directions (the Cholesky factor L of their Gram matrix exists), else the constant
  * alone. */
 static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
@@ -412,7 +412,7 @@ void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
     }
 }
 
-/* The same of the diagonal of K, N/m. */
+/* d += diagonal of K of the patches, N/m. */
 void galerkin_dilatation_diagonal (galerkin *g, double *d)
 {
     const pg_family *f = &g->dilatation->family;

@@ -149,9 +149,9 @@ double galerkin_eigen_energy (const galerkin *g, size_t p)
 
 size_t galerkin_eigen_pairs (const galerkin *g) { return g->eigen[PG_NODES] ? g->sums.n + g->nnitsche : 0; }
 
-/* The same of a constraint by Nitsche's terms: what they store has the traction times the gap in it, so that
- * a
- * free strain works on the gap by the traction that it would take off, N (n D m, m = 1 along all axes). */
+/* Work of a unit free strain on the gap of a constraint by Nitsche's terms, J: what these store has the
+ * traction times the gap in it, so that a free strain works on the gap by the traction that it would take off
+ * (n D m, m = 1 along all axes). */
 static double on_gap (const galerkin *g, const constraint *q, double t)
 {
     size_t dim = (size_t) g->dim;

@@ -350,7 +350,7 @@ done:
     return status;
 }
 
-/* As many points as cells of the lattice in the body. */
+/* 1: there are as many points as cells of the lattice in the body, so that they lie at cell centres. */
 static int at_centres (const pg_problem *p)
 {
     size_t kept = 0, n = (size_t) p->lattice.count[0] * (size_t) p->lattice.count[1]

@@ -269,7 +269,7 @@ INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e, eight *u
     if (u) u[0] = ux, u[1] = uy, u[2] = uz;
 }
 
-/* The same in the plane: xx yy xy. */
+/* Strains of eight cells at their point p in 2D: xx yy xy, shear twice the tensor's; u: displacements. */
 INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e, eight *u)
 {
     const pg_rows *r = &b->g->sums;

@@ -90,7 +90,7 @@ pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, c
                               const pg_problem *p, const pg_force_type *force, void *self,
                               const pg_state *state, const mean_motion *d, const double *t);
 void      tip_springs_clear  (tip_springs *s);
-/* The same springs as a body force at the places of a grid, added to its load: each node's springs over its
+/* Springs on points, as a body force at the places of a grid, added to its load: each node's springs over its
  * volume. For rings that do not reach all the way in. */
 pg_status tip_springs_spread (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
                               const double *t);

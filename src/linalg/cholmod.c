@@ -58,7 +58,7 @@ static cholmod_sparse view (const pg_sparse *A)
     return S;
 }
 
-/* The same without values. */
+/* The pattern of the matrix as CHOLMOD's structure, sharing the arrays, without values. */
 static cholmod_sparse pattern_of (const pg_sparse *A)
 {
     cholmod_sparse S = view (A);

@@ -150,7 +150,7 @@ PG_WIDE static void recur_rows (const step *w, size_t first, size_t last)
     }
 }
 
-/* The same at eight numbers from number i on. */
+/* The recurrence at eight numbers from number i on, where A times `now` is s. */
 static inline __attribute__ ((always_inline)) void recur_eight (const step *w, size_t i,
                                                                 const eight *s)
 {

@@ -271,7 +271,7 @@ static int by_group (const void *p, const void *q)
     return (a->group > b->group) - (a->group < b->group);
 }
 
-/* The same, then by name, so that of several names the first in the alphabet is taken. */
+/* Order of groups: dimension, number, name, so that of several names the first in the alphabet is taken. */
 static int by_group_and_name (const void *p, const void *q)
 {
     int c = by_group (p, q);

@@ -42,7 +42,7 @@ struct pg_mesh_builder {
     long      *set_node, *side_element;
     int       *side;
     size_t     npassed, passed_cap, nforeign, foreign_cap;
-    /* As in pg_mesh. */
+    /* First element type meant for plane strain, "": none; what is passed over; elements of unknown types. */
     char       plane_strain[32];
     pg_mesh_passed  *passed;
     pg_mesh_foreign *foreign;

@@ -63,7 +63,7 @@ done:
     return status;
 }
 
-/* The same, for a variable without which the file makes no sense. */
+/* The n whole numbers (newly allocated) of a variable that every Exodus file needs; PG_E_FILE: none. */
 static pg_status must (const reader *r, const char *name, size_t n, long **value)
 {
     pg_status status = whole_numbers (r, name, n, value);

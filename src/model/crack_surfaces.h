@@ -80,8 +80,8 @@ enum { LOOP_DIRECTIONS = 6 };
 int    front_loop_directions (const double *normal, double direction[LOOP_DIRECTIONS][3], size_t *parts);
 /* How many vertices a loop of this length, in spacings, has. */
 size_t front_loop_parts (double length, size_t parts);
-/* The same for a closed line of n places x: the first vertex lies at the share of the piece that begins at
- * *from. Returns parts. */
+/* First vertex of a loop on a closed line of n places x: at the share of the piece that begins at *from.
+ * Returns parts: the number of vertices is a multiple of it. */
 size_t front_loop_start (size_t n, const double *x, size_t *from, double *share);
 
 /* ---- crack_surfaces_line.c ----------------------------------------------------------------------------- */

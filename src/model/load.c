@@ -188,7 +188,7 @@ done:
     return status;
 }
 
-/* Those that are no map of components x, y, z. Returns 0 for others. */
+/* Reads symmetry, turn, gravity, spring and eigenstrain, no maps of components x, y, z. 0: it is another. */
 static int read_special (pg_problem *p, pg_load *load, const pg_scene *scene, size_t i, const char *key,
                          pg_status *status)
 {

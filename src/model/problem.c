@@ -448,7 +448,7 @@ static void intact_free (pg_intact **intact)
     *intact = NULL;
 }
 
-/* Also of a problem that was built in part only: all pointers start as NULL, and freeing those does
+/* Frees the problem, also one that was built in part only: all pointers start as NULL, and freeing those does
  * nothing. The criteria hold memory of their own and go before the array that they lie in. */
 void pg_problem_free (pg_problem **problem)
 {

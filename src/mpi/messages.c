@@ -29,7 +29,7 @@ static pg_status check_count (size_t n)
     return n <= INT_MAX ? PG_OK : pg_error (PG_E_LIMIT, PG_HERE, "a message of %zu numbers is too long", n);
 }
 
-/* So many numbers at a time, that what rank 0 takes from all ranks needs no more than 8 MiB. */
+/* Numbers of all ranks together in one gather, so that rank 0 needs no more than 8 MiB for them. */
 enum { AT_ONCE = 1 << 20 };
 
 static pg_status sum (void *context, size_t n, double *value)

@@ -218,7 +218,7 @@ done:
     return conclude (t, status);
 }
 
-/* The same for texts; NULL is an empty cell. */
+/* Writes a row of texts; NULL is an empty cell. */
 pg_status pg_table_line (pg_table *t, const char *const *values) { return conclude (t, collect (t, values)); }
 
 /* A system call costs more than the text of a row. */

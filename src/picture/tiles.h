@@ -49,9 +49,9 @@ pg_status pg_tiles_open  (pg_tiles *t);
 void      pg_tiles_close (pg_tiles *t);
 /* Assigns each pixel of a new screen to the point it belongs to, the body being undeformed. */
 pg_status pg_tiles_rest  (const pg_tiles *t, pg_screen *screen);
-/* The same for the displaced body, or the undeformed one if there is no shift. Parts of
- * neighbours that hold together share their boundary; those that have separated move apart and
- * leave a gap. */
+/* Assigns each pixel to the point it belongs to in the displaced body, or the undeformed one if there
+ * is no shift. Parts of neighbours that hold together share their boundary; those that have separated
+ * move apart and leave a gap. */
 pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
 
 /* After pg_tiles_draw with a shift, in 2D: where both faces of every crack are now, so that an opened crack

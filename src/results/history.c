@@ -28,7 +28,7 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
                                             "residual [1]",        "utilisation [1]",
                                             "event [1]",           "level [1]" };
 
-/* Those of event stepping that holds the load, or moves, where growth goes on by itself. */
+/* Columns of event stepping with solver.on_instability: hold or dynamic, where growth goes on by itself. */
 static const char *const unstable_columns[] = { "instability [1]", "motion_time [s]", "energy_damping [J]" };
 enum { UNSTABLE_COLUMNS = sizeof unstable_columns / sizeof *unstable_columns };
 static int goes_unstable (const pg_result *r)

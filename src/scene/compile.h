@@ -38,7 +38,7 @@ typedef struct {
 /* Records a fault at a position of the text. */
 pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
-/* The same, and leaves; in functions with `status` and `done:`. */
+/* Records a fault at a position of the text and leaves; in functions with `status` and `done:`. */
 #define PG_BAD(position, ...) do { status = pg_read_fault (p, (position), __VA_ARGS__); goto done; } while (0)
 /* Skips blanks. */
 void   pg_read_skip (pg_reader *p);

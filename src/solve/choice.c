@@ -40,8 +40,8 @@ static int by_bond_loops (const pg_system *s, int can)
            && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
 }
 
-/* The same of finite elements (pg_solve_by_elements); without them a factor that no memory holds is none
- * either. In the plane factors are cheap. */
+/* Would conjugate gradients with finite elements be cheaper than a factor (pg_solve_by_elements)? Without
+ * elements they are taken where no memory holds the factor. In the plane factors are cheap. */
 static int by_elements (const pg_system *s, int can)
 {
     if (s->problem->sums) return 0;

@@ -37,7 +37,7 @@ done:
     return status;
 }
 
-/* Also of one that was made in part only. */
+/* Frees the contact of an explicit method, also one that was made in part only. */
 void explicit_contact_free (pg_solver *s)
 {
     struct explicit_contact *c = motion_of (s)->contact;

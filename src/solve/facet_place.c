@@ -56,7 +56,7 @@ void facet_place (const break_loop *b, const pg_state *state, size_t tip, double
     price (b, f, out);
 }
 
-/* To the nearest place of the surface or of another crack, unless that lies behind the tip. */
+/* Facet from a tip to the nearest place of the surface or of another crack; 0: none, or behind the tip. */
 int facet_way_out (const break_loop *b, const pg_state *state, size_t tip, facet_candidate *out)
 {
     const pg_problem *p = b->system.problem;

@@ -17,7 +17,7 @@ double options_number (const pg_scene *scene, const char *key)
     return given (scene, key) ? pg_scene_number (scene, "%s", key) : 0;
 }
 
-/* The same for whole numbers. */
+/* The whole number of a key of the scene; without the key 0, also where the key has a default. */
 long options_integer (const pg_scene *scene, const char *key)
 {
     return given (scene, key) ? pg_scene_integer (scene, "%s", key) : 0;

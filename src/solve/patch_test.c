@@ -547,7 +547,7 @@ static void measure_unit_strains (probe *t)
     }
 }
 
-/* Also of a probe that was made in part only. */
+/* Frees what a probe holds, also one that was made in part only. */
 static void clear (probe *t)
 {
     pg_free (t->P), pg_free (t->x), pg_free (t->r), pg_free (t->z), pg_free (t->q), pg_free (t->inverse),

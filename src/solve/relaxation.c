@@ -27,7 +27,7 @@ done:
     return status;
 }
 
-/* Also of one that was made in part only. */
+/* Frees what relaxation and explicit dynamics hold, also where it was made in part only. */
 void relaxation_free (pg_solver *s)
 {
     struct relaxation *x = motion_of (s) ? motion_of (s)->relaxation : NULL;

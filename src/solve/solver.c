@@ -77,8 +77,8 @@ done:
     return status;
 }
 
-/* Also of a solver that was made in part only. What the method owns is freed first, as it may point into
- * the system of the break loop. */
+/* Frees the solver, also one that was made in part only. What the method owns is freed first, as it may point
+ * into the system of the break loop. */
 void pg_solver_free (pg_solver **solver)
 {
     pg_solver *s = *solver;
@@ -146,7 +146,7 @@ static void tell_blind (pg_solver *s)
                         r->degenerate_points == 1 ? "s" : "", r->degenerate_points == 1 ? "ies" : "y");
 }
 
-/* The same of points that hang on nothing: nothing says what their displacement is. */
+/* Warns once of points between cracks that hang on nothing, so that their displacement is not known. */
 static void tell_alone (pg_solver *s)
 {
     size_t n = s->report.isolated_nodes, known = s->problem->patch.isolated + s->problem->eroded;

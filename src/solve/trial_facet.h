@@ -14,7 +14,7 @@ typedef struct { int n; const double *d[2]; double t[2]; } trial_fields;
 /* A quadratic form of the weights w_a of the fields: sum_ab w_a w_b value (00, 01, 11), 01 counted twice,
  * J. */
 typedef struct { double value[3]; } trial_form;
-/* The same as c[0] + c[1] lambda + c[2] lambda^2. */
+/* A form at u (lambda) of the fields as a polynomial: c[0] + c[1] lambda + c[2] lambda^2, J. */
 void trial_polynomial (const trial_fields *f, const trial_form *form, double *c);
 
 /* ---- trial_release.c ----------------------------------------------------------------------------------- */

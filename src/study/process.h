@@ -27,7 +27,7 @@ pg_status pg_process_run (pg_process *out, const char *program, const char *cons
 typedef struct {
     long   id;
     double start;
-    /* As in pg_process. */
+    /* Exit code (128 + signal that ended it); seconds on the clock, CPU seconds; largest memory, bytes. */
     int    code;
     double wall, cpu;
     size_t peak;

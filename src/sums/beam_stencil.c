@@ -36,7 +36,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return pg_stencil_loop_refusal (setting);
 }
 
-/* Also of an object that was never completed. */
+/* Frees the loop, also one that was never completed. */
 static void release (void *self)
 {
     beams *s = self;

@@ -32,8 +32,8 @@ static void release (void *self)
     pg_free (s);
 }
 
-/* The same setting twice: for the beams without the dilatation, and for the dilatation without bonds of
- * its own stiffness (deviation 0). Surface factors belong to the bonds: families at the surface have a
+/* Makes two loops of one setting: for the beams without the dilatation, and for the dilatation without bonds
+ * of its own stiffness (deviation 0). Surface factors belong to the bonds: families at the surface have a
  * weighted volume q of their own, by which their dilatation is right already. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {

@@ -45,7 +45,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return pg_bond_loop_state_stencil.refusal (setting);
 }
 
-/* Also of an object that was never completed. */
+/* Frees the loop, also one that was never completed. */
 static void release (void *self)
 {
     convolver *c = self;

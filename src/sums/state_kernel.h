@@ -102,7 +102,7 @@ INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int
     }
 }
 
-/* The same for forces, which go to job->f. */
+/* Forces of all strides of a range of blocks that have points, N, which go to job->f. */
 INLINE void pull_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int width = VECS (dim) * LANES;

@@ -14,7 +14,7 @@ typedef struct {
     double *factor, *alpha;                            /* in that of the list: A d / q^2, sum w V p (n) */
 } state_list;
 
-/* Also of an object that was never completed. */
+/* Frees the loop, also one that was never completed. */
 static void release (void *self)
 {
     state_list *s = self;
