@@ -60,6 +60,18 @@ silent "supports on nodes" '.*inside the surface' small_hole.yaml method.essenti
 warned "a hole smaller than a spacing" 'body.1.: a hole of 0.04 m is smaller than the spacing there, 0.1 m' small_hole.yaml
 warned "a wall thinner than a spacing" "body.1.: the wall beside this hole at .* m is 0.05 m thick, 0.5 of the spacing there" small_hole.yaml "body=[{add: {box: {low: [0, 0], high: [1, 0.5]}}}, {subtract: {disk: {center: [0.5, 0.2], radius: 0.15}}}]"
 silent "a hole that opens into the side, beside a wall of a spacing" ".*the wall beside" small_hole.yaml "body=[{add: {box: {low: [0, 0], high: [1, 0.5]}}}, {subtract: {disk: {center: [0.5, 0.15], radius: 0.25}}}]"
+cat > "$work/held.yaml" << 'S'
+dimension: 3
+body: [{add: {cylinder: {center: [0.134, -0.145, 0.059], radius: 0.5, length: 0.73}}}]
+spacing: 0.1264
+lattice: nodes
+materials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.25, density: 2500}}
+method: {force: gmpd, accept_inexact: true}
+sets: {foot: {where: x < -0.21}}
+boundary: [{name: foot, set: foot, displacement: {x: 0, y: 0, z: 0}}]
+solver: {kind: newmark, dt: 0.1 ms, time_steps: 1}
+S
+silent "rotations that nothing resists, which are held" ".*next to nothing resists some motion" "$work/held.yaml"
 silent "an evaluation point between the arms of a kink, which a wider support serves" 'sees* too little' kinked_wedge.yaml
 warned "an evaluation point that cracks enclose" '1 evaluation point beside cracks, such as that at (0.376268, 0.273532) m, sees too little for a strain' kinked_wedge.yaml 'cracks=[{polyline: [[0.355, 0.26], [0.41, 0.26], [0.376, 0.29], [0.355, 0.26]]}]'
 warned "facets that have nowhere to begin" 'no crack can grow: there is no crack, and no strength' small_hole.yaml 'failure={criterion: energy_release, fracture_energy: 10 J/m2}'
