@@ -92,7 +92,8 @@ typedef struct {
      * the last bit, and each kind is evaluated once: for points on a lattice, where there are few kinds. */
     int    congruent;
     /* 1: N and dN are improved by residuals of what they reproduce, to 1e-14, and belong to bonds that are
-     * not rounded, each place for itself (consistent integration); places with wider supports always are. */
+     * not rounded, each place for itself (consistent integration). Places with wider supports always are, and
+     * of a quadratic basis those that lost bonds. */
     int    refined;
 } pg_approx;
 

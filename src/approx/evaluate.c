@@ -268,7 +268,9 @@ static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t
         if (grade > PG_GRADE_PROJECTED) return grade;
         if (s->sloped) g->formula->fill (s, N, dN);
         else if (rows->N) g->formula->values (s, N);
-        if (s->refined) pg_neighbourhood_refine (s, rows->N ? N : NULL, s->sloped ? dN : NULL);
+        /* what a crack leaves may carry a quadratic basis by few digits */
+        if (s->refined || (s->order == 2 && s->lost))
+            pg_neighbourhood_refine (s, rows->N ? N : NULL, s->sloped ? dN : NULL);
         if (!wild (s, dN)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
         clear (rows, first, last);
     }
