@@ -93,7 +93,7 @@ typedef struct {
     int    congruent;
     /* 1: N and dN are improved by residuals of what they reproduce, to 1e-14, and belong to bonds that are
      * not rounded, each place for itself (consistent integration). Places with wider supports always are, and
-     * of a quadratic basis those that lost bonds. */
+     * those whose neighbours carry the basis by few digits. */
     int    refined;
 } pg_approx;
 

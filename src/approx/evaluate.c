@@ -256,6 +256,15 @@ static void clear (pg_rows *rows, size_t first, size_t last)
     for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
+/* Do the neighbours carry the basis by few digits? Of whole supports the least pivot of a quadratic basis is
+ * about 1e-3. */
+static int frail (const pg_neighbourhood *s)
+{
+    for (int k = 0; !s->projected && k < s->size; k++)
+        if (s->L[k * s->size + k] * s->L[k * s->size + k] < 1e-6) return 1;
+    return 0;
+}
+
 /* Shape functions by the richest basis that the live bonds can carry; returns its grade.
  * Derivatives that the caller did not ask for go to scratch space, where the rule for steep
  * ones or the formula needs them. */
@@ -268,8 +277,7 @@ static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t
         if (grade > PG_GRADE_PROJECTED) return grade;
         if (s->sloped) g->formula->fill (s, N, dN);
         else if (rows->N) g->formula->values (s, N);
-        /* what a crack leaves may carry a quadratic basis by few digits */
-        if (s->refined || (s->order == 2 && s->lost))
+        if (s->refined || frail (s))
             pg_neighbourhood_refine (s, rows->N ? N : NULL, s->sloped ? dN : NULL);
         if (!wild (s, dN)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
         clear (rows, first, last);
