@@ -240,23 +240,25 @@ void pg_stress_of_gradient (const pg_material *m, int dim, const double *H, doub
     if (dim == 2) stress[1] = s[1], stress[2] = zz, stress[3] = s[2];
 }
 
-/* The pressure of the patches, between the nodes of the point's material by their shape functions. */
-static void add_pressure (const sampling *s, const pg_rows *r, size_t at, size_t point, double *stress)
+/* The pressure of the patches (Pa), between the nodes of the point's material by their shape functions. */
+static double pressure (const sampling *s, const pg_rows *r, size_t at, size_t point)
 {
     const galerkin *g = s->g;
     double sum = 0, share = 0;
+    if (!s->pressure) return 0;
     for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
         double N = r->N[e + pg_rows_offset (r, at)];
         if (g->material[PG_NODES][j] == g->material[g->bulk][point]) sum += N * s->pressure[j], share += N;
     }
-    for (int k = 0; k < 3 && share > 0.1; k++) stress[k] += sum / share;
+    return share > 0.1 ? sum / share : 0;
 }
 
 /* u and its gradient at x as those of the nearest evaluation point q go on, in the mean of all that are as
- * near: numbers and rounding choose none of them. */
-static void go_on_from (sampling *s, const double *x, size_t q, double *u, double *H)
+ * near: numbers and rounding choose none of them. Returns the pressure of the patches there, Pa. */
+static double go_on_from (sampling *s, const double *x, size_t q, double *u, double *H)
 {
+    double sum = 0;
     const galerkin *g = s->g;
     const pg_rows *bulk = &g->rows[g->bulk];
     size_t dim = (size_t) g->dim;
@@ -268,6 +270,7 @@ static void go_on_from (sampling *s, const double *x, size_t q, double *u, doubl
     memset (u, 0, 3 * sizeof *u), memset (H, 0, 9 * sizeof *H);
     for (size_t m = 0; m < n; m++) {
         gradient (s, bulk, all[m], from, G);
+        sum += pressure (s, bulk, all[m], q) / (double) n;
         for (size_t c = 0; c < dim; c++) {
             u[c] += from[c] / (double) n;
             for (size_t k = 0; k < dim; k++) {
@@ -276,6 +279,7 @@ static void go_on_from (sampling *s, const double *x, size_t q, double *u, doubl
             }
         }
     }
+    return sum;
 }
 
 static void evaluate (void *context, size_t first, size_t last, int thread)
@@ -287,17 +291,17 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t p = first; p < last; p++) {
         size_t q = s->uniform ? 0 : s->at[p];
-        double *u = s->u + 3*p, H[9];
+        double *u = s->u + 3*p, H[9], more;
         if (s->uniform && s->rows.grade[p] > bulk->grade[q])
             q = (size_t) pg_nearest_find (g->near_point, s->rows.x + p * dim, NULL, NULL);
         int whole = s->rows.grade[p] <= bulk->grade[q];
-        if (whole) gradient (s, &s->rows, p, u, H);
-        else go_on_from (s, s->rows.x + p * dim, q, u, H);
+        if (whole) gradient (s, &s->rows, p, u, H), more = pressure (s, &s->rows, p, q);
+        else more = go_on_from (s, s->rows.x + p * dim, q, u, H);
         if (s->gradient) memcpy (s->gradient + 9*p, H, sizeof H);
         if (!s->stress) continue;
         pg_stress_of_gradient (galerkin_plain (g, g->bulk, q), g->dim, H, s->stress + 6*p);
         galerkin_eigen_relieve (g, s->time, s->rows.x + p * dim, q, s->stress + 6*p);
-        if (s->pressure) add_pressure (s, whole ? &s->rows : bulk, whole ? p : q, q, s->stress + 6*p);
+        for (int k = 0; k < 3; k++) s->stress[6*p + (size_t) k] += more;
     }
 }
 
