@@ -180,21 +180,32 @@ done:
     return status;
 }
 
-/* The first diagonal and its geometric mean, which penalties on a few points, a million times as stiff, do
- * not raise, N/m: they tell which unknowns have become weak, and how large forces of rounding are. */
+/* Mean of the first diagonal without entries above `most`, N/m; of their logarithms where `most` is infinite
+ * (without zeros): the geometric mean. */
+static double mean_of_diagonal (pg_system *s, double most)
+{
+    const pg_subdomain *part = s->problem->cloud.subdomain;
+    double sum = 0, number = 0;
+    int logarithms = isinf (most);
+    for (size_t j = 0; j < s->ndof; j++) {
+        double k = s->diagonal0[j];
+        if (!pg_owns (part, j / (size_t) s->components) || k > most || (logarithms && !(k > 0))) continue;
+        sum += logarithms ? log (k) : k, number++;
+    }
+    sum = system_sum (s, sum), number = system_sum (s, number);
+    return number > 0 ? logarithms ? exp (sum / number) : sum / number : 0;
+}
+
+/* The first diagonal and its mean, N/m: they tell which unknowns have become weak, and how large forces
+ * of rounding are. Penalties on a few points, a million times as stiff, are not in the mean. */
 void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
-    double sum = 0, number = 0;
+    const double stiff = 1e3;
     const pg_operator *op = operator_of (s);
     if (s->mean_diagonal > 0) return;
     for (size_t j = 0; K && j < s->ndof; j++) s->diagonal0[j] = K->value[K->start[j + 1] - 1];
     if (!K) op->diagonal (op->context, s->diagonal0);
-    const pg_subdomain *part = s->problem->cloud.subdomain;
-    for (size_t j = 0; j < s->ndof; j++)
-        if (s->diagonal0[j] > 0 && pg_owns (part, j / (size_t) s->components))
-            sum += log (s->diagonal0[j]), number++;
-    sum = system_sum (s, sum), number = system_sum (s, number);
-    s->mean_diagonal = number > 0 ? exp (sum / number) : 0;
+    s->mean_diagonal = mean_of_diagonal (s, stiff * mean_of_diagonal (s, INFINITY));
 }
 
 /* The values that a matrix is made in: of K at rest those of K itself, whose diagonal is kept meanwhile, else

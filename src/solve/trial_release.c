@@ -297,7 +297,7 @@ static void find_bare (const stage *g)
 /* y = M^-1 r on the unknowns of the stage, and the energies. 0: M is singular, to rounding. */
 static int stage_energies (const stage *g, int fields, double shift, int all, double *y, trial_form *out)
 {
-    const double singular = 1e-12;
+    const double singular = 1e-9;                      /* H has as many digits less beside penalties */
     double least = INFINITY, most = 0;
     size_t n = g->n;
     fill_matrix (g, shift, all);
