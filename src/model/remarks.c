@@ -83,7 +83,7 @@ static double least_extent (const pg_shape *s, int dim, double *middle)
 /* Rays around a round hole, places along its axis and along the sides of others. */
 enum { RAYS = 96, PLACES = 5 };
 
-typedef struct { const pg_problem *p; double least, spacing, at[3]; } thinnest;
+typedef struct { const pg_problem *p; size_t hole; double least, spacing, at[3]; } thinnest;
 
 /* Thickness of the body from a place on a hole in direction e, up to a spacing there; 0: no body begins
  * there. */
@@ -176,22 +176,30 @@ static void look_at_straight (thinnest *t, const pg_shape *s)
         }
 }
 
-/* A wall thinner than the points are apart has at most one layer of them. */
+/* A wall thinner than the points are apart has at most one layer of them. The thinnest is named, and beside
+ * how many more holes there are others. */
 void pg_remark_thin_walls (pg_problem *p)
 {
+    thinnest worst = { .least = INFINITY, .spacing = 1 };
+    size_t holes = 0;
+    char more[64] = "";
     for (size_t i = 0; p->lattice.dim && i < p->body.n; i++) {
         const pg_shape *s = &p->body.shape[i];
-        thinnest t = { .p = p, .least = INFINITY, .spacing = 1 };
+        thinnest t = { .p = p, .hole = i, .least = INFINITY, .spacing = 1 };
         if (s->add || s->slot) continue;
         look_at_round (&t, s);
         look_at_straight (&t, s);
-        if (isfinite (t.least))
-            pg_problem_note (p,
-                             PG_WARNING "body[%zu]: the wall beside this hole at (%.6g, %.6g, %.6g) m is "
-                                        "%.3g m thick, %.2g of the spacing there: the points do not resolve "
-                                        "it, and what it bears may be off by half",
-                             i, t.at[0], t.at[1], t.at[2], t.least, t.least / t.spacing);
+        holes += isfinite (t.least);
+        if (t.least / t.spacing < worst.least / worst.spacing) worst = t;
     }
+    if (holes == 0) return;
+    if (holes > 1) snprintf (more, sizeof more, " (%zu more holes have such walls)", holes - 1);
+    pg_problem_note (p,
+                     PG_WARNING "body[%zu]: the wall beside this hole at (%.6g, %.6g, %.6g) m is %.3g m "
+                                "thick, %.2g of the spacing there%s: the points do not resolve it, and what "
+                                "it bears may be off by half",
+                     worst.hole, worst.at[0], worst.at[1], worst.at[2], worst.least,
+                     worst.least / worst.spacing, more);
 }
 
 /* ---- small shapes -------------------------------------------------------------------------------------- */

@@ -350,17 +350,20 @@ done:
     return status;
 }
 
-/* A straight line through energies over R^3, by least squares. */
+/* A straight line through energies over R^3, by least squares; without radii, but the first, from which on a
+ * loaded part comes loose. */
 static void fit (disc *d, const double *R, double energy[][3])
 {
     double mean = 0, spread = 0;
-    for (int k = 0; k < RADII; k++) mean += R[k] / RADII;
-    for (int k = 0; k < RADII; k++) spread += (R[k] - mean) * (R[k] - mean);
+    int n = RADII;
+    while (n > 1 && isinf (energy[n - 1][0] + energy[n - 1][2])) n--;
+    for (int k = 0; k < n; k++) mean += R[k] / n;
+    for (int k = 0; k < n; k++) spread += (R[k] - mean) * (R[k] - mean);
     for (int q = 0; q < 3; q++) {
         double value = 0, slope = 0;
-        for (int k = 0; k < RADII; k++) {
+        for (int k = 0; k < n; k++) {
             double y = energy[k][q] / (R[k] * R[k] * R[k]);
-            value += y / RADII, slope += (R[k] - mean) * y / spread;
+            value += y / n, slope += spread > 0 ? (R[k] - mean) * y / spread : 0;
         }
         d->release[q] = value - slope * mean, d->slope[q] = slope;
     }
