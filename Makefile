@@ -193,7 +193,7 @@ test: test-packages  ## everything; last line: N passed, N failed
 	$(Q).ci/test $(BUILD) "$(T)" short $(JOBS)
 
 test-long: test-packages  ## in full size those that have a larger one; test-full: those too that take longest
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs bench-programs
 	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
 
 test-full: test-packages

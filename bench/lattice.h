@@ -54,7 +54,7 @@ static inline pg_status lattice_bond (lattice_body *b, const pg_sum_rule *rule, 
     double h = b->cloud.h;
     pg_lattice lattice = { .dim = b->cloud.dim, .step = { h, h, h } };
     PG_TRY (pg_sums_create (&b->sums, rule, &b->cloud, scattered ? NULL : &lattice));
-    PG_TRY (pg_sums_family (&b->family, b->sums));
+    PG_TRY (pg_sums_family (&b->family, b->sums, NULL));
     PG_ALLOC (b->alive, b->family.start[b->cloud.n]);
     memset (b->alive, 1, b->family.start[b->cloud.n]);
 done:
