@@ -27,6 +27,7 @@ static void apply_combined (void *context, const double *x, double *y)
     system_multiply (s, full, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass (s, c->dyn->m, full, z);
+    else system_add_hanging (s, full, z);
     if (c->dyn) system_clear_ghosts (s, z);
     if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
 }
@@ -132,8 +133,10 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
     pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn),
                           system_is_shared (s), &s->cg_room };
-    pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
-                                                       s->delta, tolerance, limit, used, &watch);
+    pg_status status = dyn ? PG_OK : system_hold_hanging (s);
+    if (status == PG_OK)
+        status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced, s->delta,
+                                                 tolerance, limit, used, &watch);
     s->carried = carries && status == PG_OK;
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;

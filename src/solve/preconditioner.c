@@ -197,11 +197,12 @@ done:
 }
 
 /* ---- used ---------------------------------------------------------------------------------------------- */
-/* K x with prescribed unknowns left out: they stay zero. */
+/* K x with prescribed unknowns left out, which stay zero, and springs at nodes that lack a bond. */
 static void apply_free (void *context, const double *x, double *y)
 {
     const pg_system *s = context;
     system_multiply (s, x, y);
+    system_add_hanging (s, x, y);
     for (size_t i = 0; i < s->ndof; i++) if (s->fixed[i]) y[i] = 0;
 }
 
@@ -213,7 +214,8 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double t0 = pg_seconds (), *b = s->scratch, *x = s->full;
     for (size_t i = 0; i < s->ndof; i++) b[i] = s->fixed[i] ? 0 : s->residual[i], x[i] = 0;
-    pg_status status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
+    pg_status status = system_hold_hanging (s);
+    if (status == PG_OK) status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
     for (size_t j = 0; j < s->nred; j++) s->delta[j] = s->full[T ? (size_t) T->row[j] : j];
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;

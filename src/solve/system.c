@@ -39,7 +39,7 @@ void system_free (pg_system *s)
     pg_free (s->diagonal0), pg_free (s->mass), pg_free (s->whole),
         pg_free (s->bare);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
-        pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
+        pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored), pg_free (s->hanging);
     pg_crack_paths_free (&s->paths), pg_crack_paths_free (&s->factored_paths);
     pg_free (s->rough.earlier), pg_free (s->rough.before), pg_free (s->rough.earlier_u);
     for (int k = 0; k < ROUGH_VIEWS; k++) pg_free (s->rough.view[k].delta), pg_free (s->rough.view[k].u);
@@ -108,16 +108,36 @@ done:
 
 /* Nodes of points that lack a bond (pre-cracks): breaking changes their diagonal, which is how weak
  * unknowns are found later, but the first K is already without these bonds. */
-static void mark_touched (pg_system *s, const pg_state *state)
+static void mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched)
 {
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_family *f = &s->problem->rows[set].family;
-        const unsigned char *alive = state->alive + s->problem->first_bond[set];
+        const unsigned char *alive = bonds + s->problem->first_bond[set];
         for (size_t p = 0; p < f->n; p++) {
             if (!memchr (alive + f->start[p], 0, f->start[p + 1] - f->start[p])) continue;
-            for (size_t e = f->start[p]; e < f->start[p + 1]; e++) s->touched[f->node[e]] = 1;
+            for (size_t e = f->start[p]; e < f->start[p + 1]; e++) touched[f->node[e]] = 1;
         }
     }
+}
+
+/* Iterations at rest without a matrix have springs of 1e-11 of the mean diagonal at nodes that lack a bond: a
+ * point that hangs on a single bond has no stiffness across it, and rounding would move it by any amount.
+ * What the springs change of the solution the residual, which has none of them, takes out again. */
+pg_status system_hold_hanging (pg_system *s)
+{
+    pg_status status = PG_OK;
+    if (!s->hanging) PG_ALLOC (s->hanging, s->problem->cloud.n);
+    memset (s->hanging, 0, s->problem->cloud.n);
+    if (s->alive && !system_is_shared (s)) mark_touched (s, s->alive, s->hanging);
+done:
+    return status;
+}
+
+/* y += (those springs) x */
+void system_add_hanging (const pg_system *s, const double *x, double *y)
+{
+    size_t c = (size_t) s->components;
+    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += 1e-11 * s->mean_diagonal * x[j];
 }
 
 /* A copy of cracks that grow, in its own memory. */
@@ -138,7 +158,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
 {
     double t0 = pg_seconds ();
     pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
-    if (!changes && !s->marked) mark_touched (s, state), s->marked = 1;
+    if (!changes && !s->marked) mark_touched (s, state->alive, s->touched), s->marked = 1;
     s->alive = state->alive;
     if (status == PG_OK) status = copy_paths (s, &s->paths, state->paths);
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
