@@ -15,6 +15,26 @@ typedef struct {
     double keep;                                       /* residual of the iterate that is kept, N; 0: none */
 } combined;
 
+/* Iterations at rest without a matrix have springs of 1e-11 of the mean diagonal at nodes that lack a bond: a
+ * point that hangs on a single bond has no stiffness across it, and rounding would move it by any amount.
+ * What the springs change of the solution the residual, which has none of them, takes out again. */
+pg_status system_hold_hanging (pg_system *s)
+{
+    pg_status status = PG_OK;
+    if (!s->hanging) PG_ALLOC (s->hanging, s->problem->cloud.n);
+    memset (s->hanging, 0, s->problem->cloud.n);
+    if (s->alive && !system_is_shared (s)) system_mark_touched (s, s->alive, s->hanging);
+done:
+    return status;
+}
+
+/* y += (those springs) x */
+void system_add_hanging (const pg_system *s, const double *x, double *y)
+{
+    size_t c = (size_t) s->components;
+    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += 1e-11 * s->mean_diagonal * x[j];
+}
+
 /* y = T' (k K + m M) T x */
 static void apply_combined (void *context, const double *x, double *y)
 {

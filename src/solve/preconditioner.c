@@ -215,7 +215,8 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
     double t0 = pg_seconds (), *b = s->scratch, *x = s->full;
     for (size_t i = 0; i < s->ndof; i++) b[i] = s->fixed[i] ? 0 : s->residual[i], x[i] = 0;
     pg_status status = system_hold_hanging (s);
-    if (status == PG_OK) status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
+    if (status == PG_OK)
+        status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
     for (size_t j = 0; j < s->nred; j++) s->delta[j] = s->full[T ? (size_t) T->row[j] : j];
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;

@@ -195,6 +195,7 @@ void      system_forget_preconditioner (pg_system *s);
 int       system_has_preconditioner (const pg_system *s);
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
 pg_status system_remember_alive (pg_system *s);        /* in `factored`, cracks in `factored_paths` */
+void      system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched);
 pg_status system_hold_hanging (pg_system *s);          /* finds the nodes that springs hold in iterations */
 void      system_add_hanging (const pg_system *s, const double *x, double *y);
 pg_status system_guess       (pg_system *s, const dynamics *dyn, double *d, int *used);

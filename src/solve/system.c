@@ -106,9 +106,9 @@ done:
     return status;
 }
 
-/* Nodes of points that lack a bond (pre-cracks): breaking changes their diagonal, which is how weak
- * unknowns are found later, but the first K is already without these bonds. */
-static void mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched)
+/* Nodes of points that lack a bond. Of pre-cracks once: breaking changes the diagonal of such nodes, which is
+ * how weak unknowns are found later, but the first K is already without the bonds across a pre-crack. */
+void system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched)
 {
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_family *f = &s->problem->rows[set].family;
@@ -118,26 +118,6 @@ static void mark_touched (const pg_system *s, const unsigned char *bonds, unsign
             for (size_t e = f->start[p]; e < f->start[p + 1]; e++) touched[f->node[e]] = 1;
         }
     }
-}
-
-/* Iterations at rest without a matrix have springs of 1e-11 of the mean diagonal at nodes that lack a bond: a
- * point that hangs on a single bond has no stiffness across it, and rounding would move it by any amount.
- * What the springs change of the solution the residual, which has none of them, takes out again. */
-pg_status system_hold_hanging (pg_system *s)
-{
-    pg_status status = PG_OK;
-    if (!s->hanging) PG_ALLOC (s->hanging, s->problem->cloud.n);
-    memset (s->hanging, 0, s->problem->cloud.n);
-    if (s->alive && !system_is_shared (s)) mark_touched (s, s->alive, s->hanging);
-done:
-    return status;
-}
-
-/* y += (those springs) x */
-void system_add_hanging (const pg_system *s, const double *x, double *y)
-{
-    size_t c = (size_t) s->components;
-    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += 1e-11 * s->mean_diagonal * x[j];
 }
 
 /* A copy of cracks that grow, in its own memory. */
@@ -158,7 +138,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
 {
     double t0 = pg_seconds ();
     pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
-    if (!changes && !s->marked) mark_touched (s, state->alive, s->touched), s->marked = 1;
+    if (!changes && !s->marked) system_mark_touched (s, state->alive, s->touched), s->marked = 1;
     s->alive = state->alive;
     if (status == PG_OK) status = copy_paths (s, &s->paths, state->paths);
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
