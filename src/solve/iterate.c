@@ -15,26 +15,6 @@ typedef struct {
     double keep;                                       /* residual of the iterate that is kept, N; 0: none */
 } combined;
 
-/* Iterations at rest without a matrix have springs of 1e-11 of the mean diagonal at nodes that lack a bond: a
- * point that hangs on a single bond has no stiffness across it, and rounding would move it by any amount.
- * What the springs change of the solution the residual, which has none of them, takes out again. */
-pg_status system_hold_hanging (pg_system *s)
-{
-    pg_status status = PG_OK;
-    if (!s->hanging) PG_ALLOC (s->hanging, s->problem->cloud.n);
-    memset (s->hanging, 0, s->problem->cloud.n);
-    if (s->alive && !system_is_shared (s)) system_mark_touched (s, s->alive, s->hanging);
-done:
-    return status;
-}
-
-/* y += (those springs) x */
-void system_add_hanging (const pg_system *s, const double *x, double *y)
-{
-    size_t c = (size_t) s->components;
-    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += 1e-11 * s->mean_diagonal * x[j];
-}
-
 /* y = T' (k K + m M) T x */
 static void apply_combined (void *context, const double *x, double *y)
 {
@@ -47,7 +27,6 @@ static void apply_combined (void *context, const double *x, double *y)
     system_multiply (s, full, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass (s, c->dyn->m, full, z);
-    else system_add_hanging (s, full, z);
     if (c->dyn) system_clear_ghosts (s, z);
     if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
 }
@@ -153,10 +132,8 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
     pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn),
                           system_is_shared (s), &s->cg_room };
-    pg_status status = dyn ? PG_OK : system_hold_hanging (s);
-    if (status == PG_OK)
-        status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced, s->delta,
-                                                 tolerance, limit, used, &watch);
+    pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
+                                                       s->delta, tolerance, limit, used, &watch);
     s->carried = carries && status == PG_OK;
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;

@@ -197,12 +197,32 @@ done:
 }
 
 /* ---- used ---------------------------------------------------------------------------------------------- */
+/* Bonds between points make K here, and a point that hangs on a single bond has no stiffness across it:
+ * rounding would move it by any amount. Nodes that lack a bond have springs of 1e-11 of the mean diagonal.
+ * What these change of the solution the residual, which has none of them, takes out again. */
+static pg_status hold_hanging (pg_system *s)
+{
+    pg_status status = PG_OK;
+    if (!s->hanging) PG_ALLOC (s->hanging, s->problem->cloud.n);
+    memset (s->hanging, 0, s->problem->cloud.n);
+    if (s->alive) system_mark_touched (s, s->alive, s->hanging);
+done:
+    return status;
+}
+
+/* y += (those springs) x */
+static void add_hanging (const pg_system *s, const double *x, double *y)
+{
+    size_t c = (size_t) s->components;
+    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += 1e-11 * s->mean_diagonal * x[j];
+}
+
 /* K x with prescribed unknowns left out, which stay zero, and springs at nodes that lack a bond. */
 static void apply_free (void *context, const double *x, double *y)
 {
     const pg_system *s = context;
     system_multiply (s, x, y);
-    system_add_hanging (s, x, y);
+    add_hanging (s, x, y);
     for (size_t i = 0; i < s->ndof; i++) if (s->fixed[i]) y[i] = 0;
 }
 
@@ -214,7 +234,7 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double t0 = pg_seconds (), *b = s->scratch, *x = s->full;
     for (size_t i = 0; i < s->ndof; i++) b[i] = s->fixed[i] ? 0 : s->residual[i], x[i] = 0;
-    pg_status status = system_hold_hanging (s);
+    pg_status status = hold_hanging (s);
     if (status == PG_OK)
         status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
     for (size_t j = 0; j < s->nred; j++) s->delta[j] = s->full[T ? (size_t) T->row[j] : j];

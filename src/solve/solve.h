@@ -93,7 +93,7 @@ typedef struct {
     double   *copy, *own_diagonal;
     int       forgotten;  /* 1: K was given up for its factor */
     double   *diagonal0, mean_diagonal;                /* of the first K */
-    unsigned char *hanging;                            /* nodes that springs hold in iterations at rest (n) */
+    unsigned char *hanging;                            /* nodes that springs hold in iterations (n) */
     unsigned char *touched; int marked;                /* nodes that the pre-cracks touched (n); 1: found */
     double   *mass;                                    /* lumped, per unknown, kg */
     const pg_sparse *M;                                /* consistent, or NULL */
@@ -196,8 +196,6 @@ int       system_has_preconditioner (const pg_system *s);
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
 pg_status system_remember_alive (pg_system *s);        /* in `factored`, cracks in `factored_paths` */
 void      system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched);
-pg_status system_hold_hanging (pg_system *s);          /* finds the nodes that springs hold in iterations */
-void      system_add_hanging (const pg_system *s, const double *x, double *y);
 pg_status system_guess       (pg_system *s, const dynamics *dyn, double *d, int *used);
 void      system_guess_undo  (pg_system *s, double *d);
 void      system_guess_add   (pg_system *s, const double *step);
