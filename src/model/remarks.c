@@ -193,7 +193,8 @@ void pg_remark_thin_walls (pg_problem *p)
         if (t.least / t.spacing < worst.least / worst.spacing) worst = t;
     }
     if (holes == 0) return;
-    if (holes > 1) snprintf (more, sizeof more, " (%zu more holes have such walls)", holes - 1);
+    if (holes == 2) snprintf (more, sizeof more, " (one more hole has such a wall)");
+    if (holes > 2) snprintf (more, sizeof more, " (%zu more holes have such walls)", holes - 1);
     pg_problem_note (p,
                      PG_WARNING "body[%zu]: the wall beside this hole at (%.6g, %.6g, %.6g) m is %.3g m "
                                 "thick, %.2g of the spacing there%s: the points do not resolve it, and what "

@@ -134,7 +134,8 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     const pg_operator *op = K ? NULL : s->force->operator_ (s->self);  /* K went with its factor */
     if (op) op->diagonal (op->context, e->diagonal);
     for (size_t i = 0; K && i < e->ndof; i++) e->diagonal[i] = K->value[K->start[i + 1] - 1];
-    e->shift = fmax (s->shift, 1e-11) * s->mean_diagonal, e->scale = s->reference > 0 ? s->reference : 1;
+    e->shift = fmax (s->shift, WEAK_SPRING) * s->mean_diagonal;
+    e->scale = s->reference > 0 ? s->reference : 1;
     for (int c = 0; c < e->cases; c++) memcpy (e->base[c], u[c], e->ndof * sizeof *u[c]);
     PG_TRY (constant_forces (e, e->constant));
     PG_TRY (s->force->change (s->self, &change));      /* the record begins here */

@@ -356,7 +356,7 @@ static void fit (disc *d, const double *R, double energy[][3])
 {
     double mean = 0, spread = 0;
     int n = RADII;
-    while (n > 1 && isinf (energy[n - 1][0] + energy[n - 1][2])) n--;
+    while (n > 1 && trial_comes_loose (energy[n - 1])) n--;
     for (int k = 0; k < n; k++) mean += R[k] / n;
     for (int k = 0; k < n; k++) spread += (R[k] - mean) * (R[k] - mean);
     for (int q = 0; q < 3; q++) {

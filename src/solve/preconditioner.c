@@ -198,7 +198,7 @@ done:
 
 /* ---- used ---------------------------------------------------------------------------------------------- */
 /* Bonds between points make K here, and a point that hangs on a single bond has no stiffness across it:
- * rounding would move it by any amount. Nodes that lack a bond have springs of 1e-11 of the mean diagonal.
+ * rounding would move it by any amount. Nodes that lack a bond have weak springs, as in a factor.
  * What these change of the solution the residual, which has none of them, takes out again. */
 static pg_status hold_hanging (pg_system *s)
 {
@@ -210,11 +210,12 @@ done:
     return status;
 }
 
-/* y += (those springs) x */
+/* y += what the springs at nodes that lack a bond make of x. */
 static void add_hanging (const pg_system *s, const double *x, double *y)
 {
     size_t c = (size_t) s->components;
-    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += 1e-11 * s->mean_diagonal * x[j];
+    double spring = WEAK_SPRING * s->mean_diagonal;
+    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += spring * x[j];
 }
 
 /* K x with prescribed unknowns left out, which stay zero, and springs at nodes that lack a bond. */

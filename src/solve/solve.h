@@ -194,6 +194,8 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m);
 void      system_forget_preconditioner (pg_system *s);
 int       system_has_preconditioner (const pg_system *s);
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
+/* The spring of an unknown that breaking has made weak, of the mean diagonal of the first K. */
+#define WEAK_SPRING 1e-11
 pg_status system_remember_alive (pg_system *s);        /* in `factored`, cracks in `factored_paths` */
 void      system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched);
 pg_status system_guess       (pg_system *s, const dynamics *dyn, double *d, int *used);

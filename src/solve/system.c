@@ -361,7 +361,7 @@ static int weaken_all (pg_system *s, const dynamics *dyn)
     if (s->all_weak) return 0;
     if (s->problem->sums) memset (s->touched, 1, s->problem->cloud.n);
     else if (dyn || !touch_free_parts (s)) return 0;
-    s->all_weak = 1, s->shift = 1e-11;
+    s->all_weak = 1, s->shift = WEAK_SPRING;
     return 1;
 }
 
@@ -376,7 +376,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
     pg_status status = PG_OK;
     int automatic = strcmp (s->options->linear, "auto") == 0;
     int try = s->serves && !s->loose && !dyn && !s->indefinite;
-    s->shift = try ? 0 : 1e-11;
+    s->shift = try ? 0 : WEAK_SPRING;
     for (;;) {
         double t0 = pg_seconds ();
         PG_TRY (build_matrix (s, dyn));
@@ -389,7 +389,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
         if (now == PG_OK && !(s->shift == 0 && pivots (s) < least_pivot)) break;
         if (now != PG_E_NOT_SPD) PG_TRY (now);
         if (s->shift == 0) {
-            s->shift = 1e-11, s->loose = 1;
+            s->shift = WEAK_SPRING, s->loose = 1;
             continue;
         }
         if (s->shift < 1e-8) {

@@ -56,7 +56,7 @@ double trial_reach (const pg_problem *p, const pg_state *state, const double *x,
 double trial_energy_factor (const double *c, double energy)
 {
     double least = c[0] - energy, b = c[1], a = c[2];
-    if (isinf (c[0]) || isinf (c[2])) return 0;        /* a loaded part would come loose */
+    if (trial_comes_loose (c)) return 0;
     if (!(a > 0)) return b > 0 ? fmax (0, -least / b) : least >= 0 ? 0 : INFINITY;
     double root = b * b - 4 * a * least;
     if (root < 0) return 0;

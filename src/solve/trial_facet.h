@@ -6,6 +6,7 @@
 #ifndef PG_TRIAL_FACET_H
 #define PG_TRIAL_FACET_H
 #include "solve.h"
+#include <math.h>
 
 /* Displacements that are in equilibrium under the loads of load factor t each. One: everything is
  * proportional, u (lambda) = lambda d. Two: affine loads, u (lambda) = (1 - lambda) d_0 + lambda d_1. */
@@ -48,6 +49,8 @@ double    trial_reach (const pg_problem *p, const pg_state *state, const double 
 /* The load factor from which on c[0] + c[1] lambda + c[2] lambda^2 reaches `energy`; 0: always, INFINITY:
  * never. */
 double    trial_energy_factor (const double *c, double energy);
+/* What is set free has no bound: with this cut a loaded part comes loose. */
+static inline int trial_comes_loose (const double *c) { return isinf (c[0]) || isinf (c[2]); }
 /* The bonds that each of n lengths of a new crack cuts beyond the one before. from, to: n x 3; open: its ends
  * that are tips (pg_crack_start). */
 pg_status trial_cuts (trials *w, const pg_state *state, size_t n, const double *from, const double *to,

@@ -328,7 +328,7 @@ static pg_status stage_release (const trials *w, const trial_fields *f, const ch
 {
     pg_status status = PG_OK;
     stage g = { .w = w, .c = c, .n = n, .list = list, .place = place };
-    double *y = NULL, weak = 1e-11 * w->system->mean_diagonal;
+    double *y = NULL, weak = WEAK_SPRING * w->system->mean_diagonal;
     PG_ALLOC (g.h, n * n);
     PG_ALLOC (g.M, n * n);
     PG_ALLOC (y, n * (size_t) f->n);

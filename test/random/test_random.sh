@@ -7,7 +7,8 @@
 # that ends at edges of the body all around (589), an end of a front that stays where it is and slivers of cells (603), parts of a facet (313), points as near
 # to two nodes (422) or to two cross sections of a front (387), pieces of surfaces in contact (549, 526), a ray past a slot that did not end (482), few rows of
 # points (609), a node that nothing holds (324), a preconditioner that fails (618), supports inside both ends of a body (522), a front
-# that falls into two and a body that is cut off (429), a rank without supports (832), nodes on a crack that nothing holds (1297), a point that hangs on a single bond (1779), a loaded part beside a trial facet by iterations (670).
+# that falls into two and a body that is cut off (429), a rank without supports (832), nodes on a crack that nothing holds (1297), a point
+# that hangs on a single bond (1779), a loaded part beside a trial facet by iterations (670).
 build=$1
 out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT
