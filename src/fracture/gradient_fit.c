@@ -10,6 +10,7 @@
  * where too few points are left (a corner between crack faces) the linear one serves, and where even these
  * lie on a line there is no gradient. */
 #include "gradient_fit.h"
+#include "held_points.h"
 #include <math.h>
 #include <string.h>
 
@@ -29,6 +30,7 @@ struct gradient_fit {
     const pg_problem *problem;
     const pg_state *state;
     pg_nearest *near;
+    unsigned char *held;                               /* nodes: 1 held, 2 not, 0 not yet asked for */
 };
 
 pg_status gradient_fit_create (gradient_fit **out, const pg_problem *problem, const pg_state *state)
@@ -39,6 +41,7 @@ pg_status gradient_fit_create (gradient_fit **out, const pg_problem *problem, co
     PG_ALLOC (fit, 1);
     fit->problem = problem, fit->state = state;
     PG_TRY (pg_nearest_create (&fit->near, problem->dim, problem->cloud.n, problem->cloud.x));
+    PG_ALLOC (fit->held, problem->cloud.n);
     *out = fit, fit = NULL;
 done:
     gradient_fit_free (&fit);
@@ -49,6 +52,7 @@ void gradient_fit_free (gradient_fit **fit)
 {
     if (!*fit) return;
     pg_nearest_free (&(*fit)->near);
+    pg_free ((*fit)->held);
     pg_free (*fit), *fit = NULL;
 }
 
@@ -83,7 +87,13 @@ typedef struct {
     double radius, moment[MOST_TERMS * MOST_TERMS], side[MOST_FIELDS * 3 * MOST_TERMS];
 } sums;
 
-/* Adds point j to the sums, unless it lies beyond the radius. */
+static int is_held (const gradient_fit *fit, size_t j)
+{
+    if (!fit->held[j]) fit->held[j] = point_is_held (fit->problem, fit->state, j) ? 1 : 2;
+    return fit->held[j] == 1;
+}
+
+/* Adds point j to the sums, unless it lies beyond the radius or bonds do not hold it. */
 static void add_point (const gradient_fit *fit, sums *s, const double *x, size_t j, size_t n,
                        const double *const *d)
 {
@@ -94,7 +104,7 @@ static void add_point (const gradient_fit *fit, sums *s, const double *x, size_t
         z[k] = (p->cloud.x[j * dim + k] - x[k]) / s->radius;
         rr += z[k] * z[k];
     }
-    if (rr >= 1) return;
+    if (rr >= 1 || !is_held (fit, j)) return;
     double w = (1 - rr) * (1 - rr);
     basis (p->dim, s->degree, z, term);
     for (size_t k = 0; s->row && k < dim; k++) {

@@ -4,6 +4,7 @@
  * what stresses miss of equilibrium, and a place whose shape functions do not reproduce linear fields strains
  * under it. Least squares over the nodes: linear in the field, and exact for motions of a rigid body. */
 #include "mean_motion.h"
+#include "held_points.h"
 #include <math.h>
 #include <string.h>
 
@@ -35,21 +36,6 @@ static void cross (const double *a, const double *b, double *out)
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Does node i, such as one on a crack, see no other one? It stays behind when the body moves. */
-static int is_alone (const pg_problem *p, const pg_state *state, size_t i)
-{
-    const pg_family *f = &p->rows[PG_NODES].family;
-    if (p->method->shape_functions && !p->integration->at_nodes) {
-        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, state), p->cloud.x + i * (size_t) p->dim,
-                                              pg_cloud_same (&p->cloud));
-        return on && !on->sided;
-    }
-    if (!f->start) return 0;
-    for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-        if (state->alive[p->first_bond[PG_NODES] + e] && (size_t) f->node[e] != i) return 0;
-    return 1;
-}
-
 /* Mean place and displacement of the nodes in the box, and their spin; returns how many nodes there are. */
 static size_t find (mean_motion *m, const pg_problem *p, const pg_state *state, const double *d,
                     const double *low, const double *high)
@@ -58,14 +44,14 @@ static size_t find (mean_motion *m, const pg_problem *p, const pg_state *state, 
     size_t dim = (size_t) c->dim, stride = state->ndof / c->n, count = 0;
     double J[9] = { 0 }, L[3] = { 0 };
     for (size_t i = 0; i < c->n; i++) {
-        if (!inside (c->x + i * dim, dim, low, high) || is_alone (p, state, i)) continue;
+        if (!inside (c->x + i * dim, dim, low, high) || !point_is_held (p, state, i)) continue;
         count++;
         for (size_t k = 0; k < dim; k++) m->at[k] += c->x[i * dim + k], m->shift[k] += d[i * stride + k];
     }
     for (size_t k = 0; k < dim && count; k++) m->at[k] /= (double) count, m->shift[k] /= (double) count;
     for (size_t i = 0; i < c->n; i++) {
         double x[3] = { 0 }, u[3] = { 0 }, l[3], square = 0;
-        if (!inside (c->x + i * dim, dim, low, high) || is_alone (p, state, i)) continue;
+        if (!inside (c->x + i * dim, dim, low, high) || !point_is_held (p, state, i)) continue;
         for (size_t k = 0; k < dim; k++)
             x[k] = c->x[i * dim + k] - m->at[k], u[k] = d[i * stride + k] - m->shift[k],
             square += x[k] * x[k];

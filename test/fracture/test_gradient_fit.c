@@ -112,6 +112,49 @@ static void nothing_is_seen_across_a_crack (void **state)
     }
 }
 
+static const char lattice[] =
+    "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [2, 1]}}}]\nspacing: 0.1\n"
+    "lattice: cells\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.3333333333333333}}\n"
+    "boundary: [{set: top, displacement: {x: 0, y: 1}}, {set: bottom, displacement: {x: 0, y: 0}}]\n"
+    "solver: {kind: static}\nmethod: {force: bond}\n";
+
+/* A point that keeps one bond, or two in a line, moves across it as it likes: its displacement has no part in
+ * gradients beside it. */
+static void what_nothing_holds_has_no_part (void **state)
+{
+    (void) state;
+    for (size_t kept = 1; kept < 3; kept++) {
+        run r = scene_of (1, "%s", lattice);
+        const pg_problem *p = r.problem;
+        const pg_family *f = &p->rows[PG_NODES].family;
+        unsigned char *alive = r.state->alive + p->first_bond[PG_NODES];
+        gradient_fit *fit;
+        double H[9], exact[4], x[2] = { 1.13, 0.47 };
+        const double *d = r.state->d;
+        size_t loose = 0, along = 0;
+        fill (&r, quadratic);
+        for (size_t i = 0; i < p->cloud.n; i++)
+            if (hypot (p->cloud.x[2*i] - 1.05, p->cloud.x[2*i + 1] - 0.45) < 0.01) loose = i;
+        for (size_t i = 0; i < p->cloud.n; i++)
+            for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+                size_t j = (size_t) f->node[e], other = i == loose ? j : i;
+                double x1 = p->cloud.x[2 * other] - p->cloud.x[2 * loose];
+                if (i != loose && j != loose) continue;
+                alive[e] = fabs (p->cloud.x[2 * other + 1] - p->cloud.x[2 * loose + 1]) < 0.01
+                           && fabs (x1) < 0.11 && (x1 > 0 || kept == 2);
+                along += alive[e];
+            }
+        assert_int_equal (along, 2 * kept);
+        r.state->d[2 * loose + 1] += 1000;
+        check_ok (gradient_fit_create (&fit, p, r.state));
+        assert_int_equal (gradient_fit_at (fit, x, 1, &d, NULL, H), 2);
+        its_gradient (x, exact);
+        check_gradient (H, exact, 1e-9);
+        gradient_fit_free (&fit);
+        clear (&r);
+    }
+}
+
 /* u_y = sqrt (r) sin (angle / 2), the opening of a crack that ends at (1, 0.5). */
 static void opening (const double *x, double *u)
 {
@@ -141,12 +184,6 @@ static void the_field_of_a_tip_is_found (void **state)
     clear (&r);
 }
 
-static const char lattice[] =
-    "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [2, 1]}}}]\nspacing: 0.1\n"
-    "lattice: cells\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.3333333333333333}}\n"
-    "boundary: [{set: top, displacement: {x: 0, y: 1}}, {set: bottom, displacement: {x: 0, y: 0}}]\n"
-    "solver: {kind: static}\nmethod: {force: bond}\n";
-
 /* All bonds dead but those along rows: no gradient, and it says so. */
 static void points_on_a_line_have_none (void **state)
 {
@@ -173,6 +210,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (quadratic_fields_are_exact),
                                         cmocka_unit_test (nothing_is_seen_across_a_crack),
+                                        cmocka_unit_test (what_nothing_holds_has_no_part),
                                         cmocka_unit_test (the_field_of_a_tip_is_found),
                                         cmocka_unit_test (points_on_a_line_have_none) };
     return cmocka_run_group_tests (tests, NULL, NULL);
