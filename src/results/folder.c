@@ -285,15 +285,18 @@ done:
     return status;
 }
 
-/* As a run leaves it that is killed before it has locked it. */
+/* As a run leaves it that is killed before it has locked it; its other ranks may be further. */
 static int is_empty (const char *folder)
 {
     int n = 0;
+    const struct dirent *entry;
     DIR *open = opendir (folder);
-    while (open && n < 3 && readdir (open)) n++;
     if (!open) return 0;
+    while (!n && (entry = readdir (open)))
+        n = strcmp (entry->d_name, ".") != 0 && strcmp (entry->d_name, "..") != 0
+            && strcmp (entry->d_name, "ranks") != 0;
     closedir (open);
-    return n < 3;                                      /* itself and the one that it is in */
+    return n == 0;
 }
 
 /* Its copy of the scene comes before all else but the lock. */
