@@ -16,6 +16,9 @@ SIGNALS = [signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGTERM, signa
 INSTANTS = ['clock', 'clock', 'clock', 'early', 'file', 'file', 'last', 'last clock', 'wall']
 TICK = 1e-3                                              # s from one look at the clock to the next
 TIMES = ('peak_bytes', 'scene', 'ranks')
+# of the largest number, where PETSc adds in the order in which messages come: residuals of 1e-16 in matrices of condition 1e9
+ROUNDING = 1e-7
+BY_ROUNDING = ('solves', 'residual_max')                 # numbers of the report that rounding decides
 MPI = {'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1', 'OMPI_MCA_mpi_yield_when_idle': '1', 'OMPI_MCA_btl_vader_single_copy_mechanism': 'none',
        'OMPI_MCA_rmaps_base_oversubscribe': '1', 'OMPI_MCA_pml': 'ob1', 'OMPI_MCA_hwloc_base_binding_policy': 'none'}
 
@@ -53,18 +56,63 @@ def first_difference(name, a, b):
     return f'{name}: {len(two)} rows for {len(one)}'
 
 
-def report_difference(a, b, at=''):
+def size(value):
+    """The magnitude of a number, also of its text; 0 for all else."""
+    try:
+        return abs(float(value))
+    except (ValueError, TypeError):
+        return 0.0
+
+
+def close(a, b, largest):
+    """Whether two words are the same, or numbers that differ by rounding."""
+    try:
+        return a == b or abs(float(a) - float(b)) <= ROUNDING * largest
+    except (ValueError, TypeError):
+        return False
+
+
+def rounded_difference(name, a, b):
+    """Of two tables whose numbers may differ by rounding, each against the largest of its row's kind; of other files the length alone."""
+    if not name.endswith('.csv'):
+        return first_difference(name, a, b) if len(a) != len(b) else ''
+    one, two = (list(csv.reader(v.decode(errors='replace').splitlines())) for v in (a, b))
+    if len(one) != len(two) or one[:1] != two[:1]:
+        return first_difference(name, a, b)
+    units = [head.rsplit('[', 1)[-1] for head in one[0]] if one else []
+    for k, head in enumerate(one[0] if one else []):
+        # moments are rounded as forces are: bodies of the scenes are a metre long
+        alike = [j for j, unit in enumerate(units) if unit == units[k] or units[k] == 'N m]' and unit == 'N]'] if '[' in head else [k]
+        largest = max((size(row[j]) for row in one[1:] for j in alike), default=0.0)
+        for n, (x, y) in enumerate(zip(one, two)):
+            if not close(x[k], y[k], largest):
+                return f'{name}, row {n}, {head}: {y[k]} for {x[k]}, more than rounding'
+    return ''
+
+
+def by_petsc(folder):
+    with open(os.path.join(folder, 'report.json'), encoding='utf-8') as file:
+        return json.load(file).get('linear_solver') == 'petsc'
+
+
+def report_difference(a, b, at='', largest=None):
+    """largest: None, or the largest number beside these, of which rounding is measured; how often was solved may differ by it as well."""
     if isinstance(a, dict) and isinstance(b, dict) and a.keys() == b.keys():
-        return next((d for d in (report_difference(a[k], b[k], f'{at}.{k}' if at else k) for k in a) if d), '')
+        largest = None if largest is None else max(map(size, a.values()), default=0.0) if at else 0.0
+        return next((d for d in (report_difference(a[k], b[k], f'{at}.{k}' if at else k, largest) for k in a) if d), '')
     if isinstance(a, dict) and isinstance(b, dict):
         return f'report.json, {at}: {sorted(a.keys() ^ b.keys())} more or less'
     if isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
-        return next((d for d in (report_difference(x, y, f'{at}[{k}]') for k, (x, y) in enumerate(zip(a, b))) if d), '')
+        return next((d for d in (report_difference(x, y, f'{at}[{k}]', largest) for k, (x, y) in enumerate(zip(a, b))) if d), '')
+    if largest is not None and (at in BY_ROUNDING or isinstance(a, (int, float)) and close(a, b, max(largest, size(a)))):
+        return ''
     return '' if json.dumps(a) == json.dumps(b) else f'report.json, {at}: {json.dumps(b)[:120]} for {json.dumps(a)[:120]}'
 
 
 def difference(whole, other):
-    """Of the folder of a resumed run from that of a run that nobody disturbed; '': none."""
+    """Of the folder of a resumed run from that of a run that nobody disturbed; '': none. Where PETSc solves any two runs differ by rounding."""
+    report = os.path.join(whole, 'report.json')
+    rounded = os.path.exists(report) and by_petsc(whole)
     for path in sorted(glob.glob(os.path.join(whole, '*.csv')) + glob.glob(os.path.join(whole, 'result.e*'))):
         name = os.path.basename(path)
         if not os.path.exists(os.path.join(other, name)):
@@ -75,11 +123,12 @@ def difference(whole, other):
             if a != b:
                 return f'sweep.csv: {next((y for x, y in zip(a, b) if x != y), len(b))}'
         elif a != b:
-            return first_difference(name, a, b)
-    report = os.path.join(whole, 'report.json')
+            found = rounded_difference(name, a, b) if rounded else first_difference(name, a, b)
+            if found:
+                return found
     if os.path.exists(report):
         with open(report, encoding='utf-8') as one, open(os.path.join(other, 'report.json'), encoding='utf-8') as two:
-            found = report_difference(without_times(json.load(one)), without_times(json.load(two)))
+            found = report_difference(without_times(json.load(one)), without_times(json.load(two)), largest=0.0 if rounded else None)
         if found:
             return found
     kept, left = (sorted(n for n in os.listdir(f) if not n.endswith('.log')) for f in (whole, other))
@@ -202,20 +251,28 @@ class Trial:
 
     def interrupt(self, number, call, at, resume):
         """One run that gets a signal; its exit code."""
-        if call != 'wall':
-            return self.end(self.start(self.out, resume, call, at, number))
-        child = self.start(self.out, resume)
-        try:
-            child.wait(at * self.whole_seconds)
-        except subprocess.TimeoutExpired:
-            self.send(child, number)
-        left = self.processes(child)[1:]
+        child = self.start(self.out, resume, *([] if call == 'wall' else [call, at, number]))
+        if call == 'wall':
+            try:
+                child.wait(at * self.whole_seconds)
+            except subprocess.TimeoutExpired:
+                self.send(child, number)
         code = self.end(child)
-        for _ in range(1000):                            # ranks may come to their end behind mpirun
-            if not any(os.path.exists(f'/proc/{p}') for p in left):
+        for _ in range(1000 * bool(self.case.ranks)):    # ranks may come to their end behind mpirun
+            if not self.ranks_left():
                 break
             time.sleep(0.02)
         return code
+
+    def ranks_left(self):
+        """Whether a process of this trial still runs; it may be dead and not yet gone."""
+        for path in glob.glob('/proc/[0-9]*/cmdline'):
+            try:
+                if self.out.encode() in read(path):
+                    return True
+            except OSError:
+                pass
+        return False
 
     def ended(self, code, number, call, at):
         """What is wrong with the end of an interrupted run."""
