@@ -225,11 +225,19 @@ def told_rounding(case):
     return weak + max([float(t) for t in re.findall(r'gives strains of (\S+) times the angle', words)], default=0.0)
 
 
+def at_the_end(case, run):
+    """Kernels that do not vanish at the horizon: a pair exactly there has a bond or none as coordinates are rounded; ten times its share of all bonds."""
+    ends = case.data['method'].get('kernel', 'constant' if case.data['method'].get('force', 'galerkin') != 'galerkin' else 'cubic_spline')
+    mine, its = case.base.report.get('bonds'), run.report.get('bonds') if run.done else None
+    return 10 * abs(mine - its) / mine if ends in ('constant', 'linear_r', 'inverse_r') and mine and its else 0.0
+
+
 def image_of(case, image, tolerance, what, files=None):
     breaks = 'failure' in case.data
     data = image.scene(case.data)
     files = [(n, image.points(t) if n.endswith('.csv') else t) for n, t in case.scene.files]
-    text = differs(case, case.program.run(data, files), image, EVENTS if breaks else tolerance + told_rounding(case))
+    run = case.program.run(data, files)
+    text = differs(case, run, image, EVENTS if breaks else tolerance + told_rounding(case) + at_the_end(case, run))
     if text:
         yield f'{what}: {text}'
 
@@ -718,6 +726,8 @@ def falling(case):
         data['boundary'] = [{'name': 'weight', 'gravity': [0.0, -10.0, 0.0][:d], 'ramp': 'constant'}]
         if exact:
             data['solver']['mass'] = 'consistent'
+        else:                                            # what vibrates, as loads at points and masses at nodes differ, is small against a longer fall
+            data['solver']['end' if 'end' in data['solver'] else 'time_steps'] *= 4
         data['output']['averages'] = [{'name': 'fall', 'set': 'all', 'field': 'displacement.y'}]
         return data
     run = case.run(fall)
