@@ -20,6 +20,19 @@ typedef struct {
     double  strain;  /* stored energy: strain, stabilisation, boundary terms, J */
 } pg_work_balance;
 
+/* What the caller knows of the state whose work is asked for, so that the force need not evaluate it. */
+typedef struct {
+    /* What motion and contact add to the residual, N (ndof); NULL: nothing. */
+    const double *inertia;
+    /* The residual of the state with the bonds that are intact now, N (ndof), less `inertia` or (whole: 1)
+     * with it. NULL: the force evaluates it. */
+    const double *residual;
+    int whole;
+    /* 1: a static state in equilibrium. Stored energy may be half the work of the forces at hand on the
+     * displacements at hand (Clapeyron's theorem). */
+    int rest;
+} pg_known;
+
 /* Estimated error of the stress s against the recovered stress s*; norms: sqrt (int s C s dV), C =
  * compliance, so their squares are twice an energy. */
 typedef struct {
@@ -94,19 +107,12 @@ typedef struct {
      * that of factor 1. Dead ones: 0, INFINITY. */
     pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation,
                               char *kind, double *factor);
-    /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first
-     * call. */
-    pg_status (*work_balance) (void *self, double t, const double *d, const double *inertia,
-                               pg_work_balance *out);
+    /* The work balance of (t, d); known NULL: nothing is. `out` is sized on the first call. NULL: none. */
+    pg_status (*work) (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out);
     /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress"
      * (Pa), "damage", "error_estimate" (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field) (void *self, const pg_state *state, const double *d, const char *name, int *components,
                         const char **unit, double *value);
-    /* What work_balance gives, spared its evaluation of the force: `residual` is what balance or
-     * balance_and_break gave at (t, d), with the bonds that live now; of `inertia` the entries of prescribed
-     * unknowns alone are read. The strain energy is the same to rounding. NULL: work_balance. */
-    pg_status (*work_of_residual) (void *self, double t, const double *d, const double *residual,
-                                   const double *inertia, pg_work_balance *out);
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     /* Points of evaluation without a gradient, nodes alone, parts beside the largest one; where the first of
@@ -192,10 +198,6 @@ typedef struct {
     /* What the evaluation points of these bonds have of K x, N (ndof), before a refresh by these changes or
      * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
     pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
-    /* As work_balance, where the whole residual at d, inertia and damping included, is known already, N
-     * (ndof). NULL: work_balance finds it. */
-    pg_status (*work_balance_of) (void *self, double t, const double *d, const double *residual,
-                                  pg_work_balance *out);
     /* Groups of bonds (all three entries, or none). gather: fills in what belongs to group->bond, whatever it
      * held before; *can 0: not with this problem, as stresses reach further than the bonds. judge_group: as
      * utilisation, for the bonds of the group in their order (n each), d being read at the nodes of the group
@@ -208,10 +210,6 @@ typedef struct {
                               double *utilisation, char *kind, double *factor);
     pg_status (*judge_others) (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
                                size_t count, const double *d, double *top);
-    /* As work_balance, of a static state in equilibrium, at the cost of the boundary alone: `strain` is half
-     * the work of the forces at hand on the displacements at hand (Clapeyron's theorem). NULL:
-     * work_balance. */
-    pg_status (*equilibrium_balance) (void *self, double t, const double *d, pg_work_balance *out);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
      * NULL: not known. */

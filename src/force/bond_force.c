@@ -266,21 +266,6 @@ done:
     return status;
 }
 
-/* Reactions are what the residual leaves at prescribed unknowns; inertia is part of it in motion. */
-pg_status bond_force_work_balance (void *self, double t, const double *d, const double *inertia,
-                             pg_work_balance *out)
-{
-    pg_status status = PG_OK;
-    bond_force *b = self;
-    PG_TRY (bond_force_balance (b, t, d, b->work, NULL));
-    for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
-    PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
-    PG_TRY (stored_energy (b, d, &out->strain));
-    out->strain += boundary_spring_energy (&b->boundary, t, d);
-done:
-    return status;
-}
-
 /* Strain energy -1/2 f . d of forces that are linear in d, from the residual f + P; the loads P are the pairs
  * of `out` behind those of the supports, springs the last of them. Summed in eight lanes, which serve vector
  * instructions. */
@@ -302,19 +287,23 @@ PG_WIDEST static double strain_of (const bond_force *b, const double *d, const d
     return b->problem->cloud.subdomain ? 0.5 * sum : fmax (0.5 * sum, 0);
 }
 
-/* Supports prescribe single unknowns: theirs are the only entries of residual and inertia that matter to the
- * boundary. The energy follows from the forces where these are linear. */
-pg_status bond_force_work_of_residual (void *self, double t, const double *d, const double *residual,
-                                       const double *inertia, pg_work_balance *out)
+/* Reactions are what the residual leaves at prescribed unknowns, which are the only entries of residual and
+ * inertia that matter to the boundary; inertia is part of it in motion. Where forces are linear the energy
+ * follows from a residual that is known. */
+pg_status bond_force_work (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out)
 {
     pg_status status = PG_OK;
     bond_force *b = self;
-    for (size_t k = 0; k < b->boundary.nsupport; k++) {
-        size_t i = b->boundary.support[k].dof;
-        b->work[i] = residual[i] + (inertia ? inertia[i] : 0);
+    const pg_known nothing = { 0 }, *k = known ? known : &nothing;
+    if (!k->residual) PG_TRY (bond_force_balance (b, t, d, b->work, NULL));
+    for (size_t s = 0; s < b->boundary.nsupport; s++) {
+        size_t i = b->boundary.support[s].dof;
+        if (k->residual) b->work[i] = k->residual[i];
+        if (k->inertia && !(k->residual && k->whole)) b->work[i] += k->inertia[i];
     }
     PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
-    if (pg_bond_loop_halves (b->loop)) out->strain = strain_of (b, d, residual, out);
+    if (k->residual && !k->whole && pg_bond_loop_halves (b->loop))
+        out->strain = strain_of (b, d, k->residual, out);
     else PG_TRY (stored_energy (b, d, &out->strain));
     out->strain += boundary_spring_energy (&b->boundary, t, d);
 done:

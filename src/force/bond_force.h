@@ -106,10 +106,7 @@ pg_status bond_force_mass (void *self, double *mass);
 const pg_operator *bond_force_operator (void *self);
 const pg_sparse *bond_force_basis (void *self);
 pg_status bond_force_impose (void *self, double t, double *d);
-pg_status bond_force_work_balance (void *self, double t, const double *d, const double *inertia,
-                             pg_work_balance *out);
-pg_status bond_force_work_of_residual (void *self, double t, const double *d, const double *residual,
-                                       const double *inertia, pg_work_balance *out);
+pg_status bond_force_work (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out);
 unsigned long bond_force_revision (const void *self);
 pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
                                         double *reference,
@@ -169,7 +166,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .free = bond_force_free, .fields = bond_force_fields, .refresh = bond_force_refresh, \
     .balance = bond_force_balance, .mass = bond_force_mass, .operator_ = bond_force_operator, \
     .basis = bond_force_basis, .impose = bond_force_impose, .utilisation = bond_force_utilisation, \
-    .work_balance = bond_force_work_balance, .work_of_residual = bond_force_work_of_residual, \
+    .work = bond_force_work, \
     .field = bond_force_field, .overlap = bond_force_overlap, \
     .census = bond_force_census, .join = bond_force_join, .loads = bond_force_external, \
     .revision = bond_force_revision, .sample = bond_force_sample, \

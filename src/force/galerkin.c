@@ -275,14 +275,38 @@ static const pg_operator *galerkin_operator (void *self) { return &((galerkin *)
 /* How many unknowns elimination takes out. */
 static size_t slaves_of (const galerkin *g) { return g->side[0].n + g->side[1].n + g->side[2].n; }
 
+/* In equilibrium half the work of all pairs is what is stored, and facets are measured alone (nodes too, where
+ * something acts there). Not where reactions of eliminated unknowns need forces of the whole body, or a body
+ * force its displacements. */
+static int boundary_tells (const galerkin *g, const pg_work_balance *out, int *nodes)
+{
+    int points = slaves_of (g) > 0;
+    *nodes = g->npenalty > 0;
+    for (size_t l = 0; l < g->problem->nload; l++) {
+        pg_load_kind kind = g->problem->load[l].kind;
+        points |= kind == PG_BODY_FORCE || g->problem->load[l].cracks;
+        *nodes |= kind == PG_POINT_FORCE;
+    }
+    return out->force && !points && !g->dilatation && !galerkin_eigen_pairs (g);
+}
+
+static void work_of_boundary (galerkin *g, double t, const double *d, int nodes, pg_work_balance *out)
+{
+    memset (out->reaction, 0, PG_REACTIONS * g->problem->nload * sizeof *out->reaction);
+    galerkin_measure (g, PG_FACETS, d);
+    if (nodes) galerkin_measure (g, PG_NODES, d);
+    galerkin_boundary_work_balance (g, t, d, out);
+    out->strain = 0;
+    for (size_t k = 0; k < out->npair; k++) out->strain += 0.5 * out->force[k] * out->displacement[k];
+}
+
 /* Pairs of force and displacement of all loads and supports, and the stored energy, after the measure of all
  * sets. Boundary terms first; what elimination prescribes follows with its reactions, for which the residual
  * is needed (NULL: no elimination). */
-static pg_status galerkin_work_balance_of (void *self, double t, const double *d, const double *residual,
-                                           pg_work_balance *out)
+static pg_status work_of_residual (galerkin *g, double t, const double *d, const double *residual,
+                                   pg_work_balance *out)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     if (!out->force) {
         out->npair = galerkin_boundary_pairs (g) + slaves_of (g) + galerkin_eigen_pairs (g);
         PG_ALLOC (out->force, out->npair);
@@ -299,45 +323,28 @@ done:
     return status;
 }
 
-/* The residual that it needs first. */
-static pg_status galerkin_work_balance (void *self, double t, const double *d, const double *inertia,
-                                        pg_work_balance *out)
+static pg_status galerkin_work (void *self, double t, const double *d, const pg_known *known,
+                                pg_work_balance *out)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
     double *residual = NULL, reference;
-    if (slaves_of (g)) {
-        PG_ALLOC (residual, g->n * (size_t) g->dim);
-        PG_TRY (galerkin_balance (g, t, d, residual, &reference));
-        for (size_t i = 0; inertia && i < g->n * (size_t) g->dim; i++) residual[i] += inertia[i];
+    const pg_known nothing = { 0 }, *k = known ? known : &nothing;
+    size_t ndof = g->n * (size_t) g->dim;
+    int nodes;
+    if (k->rest && boundary_tells (g, out, &nodes)) {
+        work_of_boundary (g, t, d, nodes, out);
+        return PG_OK;
     }
-    PG_TRY (galerkin_work_balance_of (g, t, d, residual, out));
+    if (!slaves_of (g) || (k->residual && k->whole)) return work_of_residual (g, t, d, k->residual, out);
+    PG_ALLOC (residual, ndof);
+    if (k->residual) memcpy (residual, k->residual, ndof * sizeof *residual);
+    else PG_TRY (galerkin_balance (g, t, d, residual, &reference));
+    for (size_t i = 0; k->inertia && i < ndof; i++) residual[i] += k->inertia[i];
+    PG_TRY (work_of_residual (g, t, d, residual, out));
 done:
     pg_free (residual);
     return status;
-}
-
-/* Work balance at rest and in balance, at the cost of the boundary: facets and, where something acts there,
- * nodes are measured, and half the work of all pairs is what is stored. Reactions of eliminated unknowns need
- * forces of the whole body, as a body force needs its displacements: then galerkin_work_balance does it. */
-static pg_status galerkin_equilibrium_balance (void *self, double t, const double *d, pg_work_balance *out)
-{
-    galerkin *g = self;
-    int points = g->side[0].n + g->side[1].n + g->side[2].n > 0, nodes = g->npenalty > 0;
-    for (size_t l = 0; l < g->problem->nload; l++) {
-        pg_load_kind kind = g->problem->load[l].kind;
-        points |= kind == PG_BODY_FORCE || g->problem->load[l].cracks;
-        nodes |= kind == PG_POINT_FORCE;
-    }
-    if (!out->force || points || g->dilatation
-        || galerkin_eigen_pairs (g)) return galerkin_work_balance (self, t, d, NULL, out);
-    memset (out->reaction, 0, PG_REACTIONS * g->problem->nload * sizeof *out->reaction);
-    galerkin_measure (g, PG_FACETS, d);
-    if (nodes) galerkin_measure (g, PG_NODES, d);
-    galerkin_boundary_work_balance (g, t, d, out);
-    out->strain = 0;
-    for (size_t k = 0; k < out->npair; k++) out->strain += 0.5 * out->force[k] * out->displacement[k];
-    return PG_OK;
 }
 
 /* Shape functions of places that see their nodes alike (approx/congruent.h), then what products spare. The
@@ -433,9 +440,7 @@ const pg_force_type pg_force_galerkin = {
     .gather = galerkin_gather,
     .judge_group = galerkin_judge_group,
     .judge_others = galerkin_judge_others,
-    .equilibrium_balance = galerkin_equilibrium_balance,
-    .work_balance = galerkin_work_balance,
-    .work_balance_of = galerkin_work_balance_of,
+    .work = galerkin_work,
     .field = galerkin_field,
     .at_nodes = galerkin_at_nodes,
     .from_nodes = galerkin_from_nodes,

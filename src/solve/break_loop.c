@@ -286,7 +286,7 @@ static pg_status grow (break_loop *b, pg_state *state, double t, double *d, cons
         goto done;
     }
     if (facet_due (b, dyn->dt)) PG_TRY (facet_move (b, state, t, d, &step->utilisation, &over));
-    if (over) PG_TRY (break_loop_account (b, t, d, dyn, 1));
+    if (over) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
 done:
     return status;
 }
@@ -325,7 +325,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             PG_TRY (break_loop_rough (b, state, t, d, dyn, &top, &rough));
         if (!rough) PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */
-        if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
+        if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
         if (b->growth) {
             int again;
             PG_TRY (grow (b, state, t, d, dyn, step, &again));
@@ -342,7 +342,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         }
         PG_TRY (break_worst (b, state, t, d, dyn, step, top));
     }
-    if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
+    if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
     b->round = 0;
     step->nbroken = b->nbroken, step->broken = b->broken;
 done:

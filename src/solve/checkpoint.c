@@ -350,8 +350,8 @@ static pg_status count_pairs (pg_solver *s, long *pairs)
     pg_status status = PG_OK;
     const pg_system *sys = &s->break_loop.system;
     pg_work_balance work_balance = { 0 };
-    if (!sys->force->work_balance) goto done;
-    PG_TRY (sys->force->work_balance (sys->self, s->backup->time, s->backup->d, NULL, &work_balance));
+    if (!sys->force->work) goto done;
+    PG_TRY (sys->force->work (sys->self, s->backup->time, s->backup->d, NULL, &work_balance));
     *pairs = (long) work_balance.npair;
 done:
     pg_work_balance_clear (&work_balance);

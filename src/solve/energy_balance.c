@@ -18,7 +18,7 @@ static pg_status balance_in_motion (pg_system *s, double t, const double *d, con
     dyn->resist (dyn->context, d, s->full);
     if (dyn->leave) {
         dyn->leave (dyn->context, d, s->full);
-        PG_TRY (s->force->work_balance (s->self, t, d, s->full, &own));
+        PG_TRY (s->force->work (s->self, t, d, &(pg_known){ .inertia = s->full }, &own));
     }
     force_balance (s, d, dyn->leave ? &own : w, s->full);
 done:
@@ -28,47 +28,32 @@ done:
 
 /* Asks the force for the work balance of the state (t, d) and adds the work since the last one. With
  * motion the reactions contain inertia and damping, which `dyn` adds, or which are in the residual that the
- * solve has left behind. */
-pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale)
+ * solve has left behind. At rest they contain the forces of contact on nodes that are held; `rest` says that
+ * the state is one of equilibrium, which spares the force its evaluation: not with friction, where half the
+ * work of the loads is not what is stored. */
+pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, int rest,
+                              double scale)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    if (!s->force->work_balance) return PG_OK;
+    if (!s->force->work) return PG_OK;
     double t0 = pg_seconds ();
-    if (dyn && dyn->whole && s->known && !s->options->plain && s->force->work_balance_of) {
-        PG_TRY (s->force->work_balance_of (s->self, t, d, s->residual, &b->work_balance));
-        PG_TRY (balance_in_motion (s, t, d, &b->work_balance, dyn));
-        PG_TRY (break_loop_book (b, scale));
-        goto done;
-    }
-    if (dyn) {
+    const double *contact = s->excavated ? s->excavated : contact_forces (s);
+    pg_known known = { 0 };
+    if (dyn && dyn->whole && s->known && !s->options->plain) known.residual = s->residual, known.whole = 1;
+    else if (dyn) {
         memset (s->full, 0, s->ndof * sizeof *s->full);
         dyn->resist (dyn->context, d, s->full);
+        known.inertia = s->full;
     }
-    /* at rest reactions contain the forces of contact on nodes that are held */
-    const double *rest = s->excavated ? s->excavated : contact_forces (s);
-    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : rest, &b->work_balance));
+    else known.inertia = contact, known.rest = rest && !contact && !s->problem->plain;
+    PG_TRY (s->force->work (s->self, t, d, &known, &b->work_balance));
     if (dyn) PG_TRY (balance_in_motion (s, t, d, &b->work_balance, dyn));
-    else force_balance (s, d, &b->work_balance, rest);
-    if (!dyn) platens_reactions (s, b->work_balance.reaction);
-    if (!dyn) b->work_balance.strain += contact_energy (s);
-    PG_TRY (break_loop_book (b, scale));
-done:
-    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
-    return status;
-}
-
-/* Accounts for the work up to a state at rest, in balance, at the cost of the boundary if the force can. */
-pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale)
-{
-    pg_status status = PG_OK;
-    pg_system *s = &b->system;
-    /* with friction half the work of the loads is not what is stored */
-    if (s->problem->plain || !s->force->equilibrium_balance || contact_forces (s) || s->excavated)
-        return break_loop_account (b, t, d, NULL, scale);
-    double t0 = pg_seconds ();
-    PG_TRY (s->force->equilibrium_balance (s->self, t, d, &b->work_balance));
-    force_balance (s, d, &b->work_balance, NULL);
+    else {
+        force_balance (s, d, &b->work_balance, contact);
+        platens_reactions (s, b->work_balance.reaction);
+        b->work_balance.strain += contact_energy (s);
+    }
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;

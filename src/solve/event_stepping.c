@@ -134,7 +134,7 @@ static pg_status go_to (pg_solver *s, pg_state *state, double factor)
     event_stepping *e = events_of (s);
     event_move (s, state, factor);
     state->factor = state->time = factor;
-    if (!e->balance_fresh) PG_TRY (break_loop_account_rest (&s->break_loop, 1, e->unit, factor));
+    if (!e->balance_fresh) PG_TRY (break_loop_account (&s->break_loop, 1, e->unit, NULL, 1, factor));
     else PG_TRY (break_loop_book (&s->break_loop, factor));
     e->balance_fresh = 1;
     s->report.energy_strain = factor * factor * s->break_loop.work_balance.strain;
@@ -154,9 +154,9 @@ pg_status event_secant (pg_solver *s, double *out)
     *out = 0;
     for (size_t k = 0; !e->base && k < b->npair; k++) *out += b->force[k] * b->displacement[k];
     if (!e->base) *out += platens_secant (sys);
-    if (e->base && sys->force->work_balance) {
-        PG_TRY (sys->force->work_balance (sys->self, stage_start (s), e->base, NULL, &zero));
-        PG_TRY (sys->force->work_balance (sys->self, stage_end (s), e->unit, NULL, &one));
+    if (e->base && sys->force->work) {
+        PG_TRY (sys->force->work (sys->self, stage_start (s), e->base, NULL, &zero));
+        PG_TRY (sys->force->work (sys->self, stage_end (s), e->unit, NULL, &one));
     }
     for (size_t k = 0; k < one.npair; k++)
         *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
@@ -291,7 +291,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     }
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
-    PG_TRY (break_loop_account_rest (b, 1, e->unit, factor));
+    PG_TRY (break_loop_account (b, 1, e->unit, NULL, 1, factor));
     s->report.energy_strain = factor * factor * b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &stiff));
@@ -363,7 +363,7 @@ pg_status event_rest (pg_solver *s, pg_state *state, double factor)
         take_reactions (s, factor);
     } else {
         event_move (s, state, factor);
-        PG_TRY (break_loop_account (&s->break_loop, factor, state->d, NULL, 1));
+        PG_TRY (break_loop_account (&s->break_loop, factor, state->d, NULL, 0, 1));
         s->report.energy_strain = b->strain;
         if (b->reaction) memcpy (s->reaction, b->reaction,
                                  PG_REACTIONS * s->problem->nload * sizeof *s->reaction);

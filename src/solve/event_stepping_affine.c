@@ -139,7 +139,7 @@ static pg_status account_here (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
     stage_bear (s, t);
-    PG_TRY (break_loop_account (&s->break_loop, t, state->d, NULL, 1));
+    PG_TRY (break_loop_account (&s->break_loop, t, state->d, NULL, 0, 1));
     s->report.energy_strain = s->break_loop.work_balance.strain;
 done:
     return status;
@@ -406,7 +406,7 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     PG_TRY (solved);
     event_move (s, state, factor);
     stage_bear (s, factor);
-    PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
+    PG_TRY (break_loop_account (b, factor, state->d, NULL, 0, 1));
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &now));

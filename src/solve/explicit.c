@@ -71,7 +71,7 @@ pg_status explicit_create (pg_solver *s)
     PG_ALLOC (m->push, 3 * m->nprescribed);
     m->push0 = m->push + m->nprescribed, m->left = m->push0 + m->nprescribed;
     if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
-    m->by_work_balance = !force->external && force->work_balance
+    m->by_work_balance = !force->external && force->work
                          && (has_forces (s->problem) || has_springs (s->problem));
     m->nblock = (sys->ndof + BLOCK - 1) / BLOCK;
     PG_ALLOC (m->sum, m->nblock * SUMS);

@@ -279,7 +279,7 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     /* of contact by search, or of crack faces: never both */
     const double *contact = sys->contact ? contact_forces (sys) : NULL;
     int searched = explicit_contact_active (s),
-        spare = sys->force->work_of_residual && !s->options.plain && !b->growth && !contact && !searched;
+        spare = !s->options.plain && !b->growth && !contact && !searched;
     for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
@@ -290,10 +290,8 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     if (searched) explicit_contact_forces (s, sys->full);
     system_add_held (sys, sys->full);
     s->spared += spare;
-    if (spare)
-        status = sys->force->work_of_residual (sys->self, t, state->d, sys->residual, sys->full,
-                                               &b->work_balance);
-    else status = sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance);
+    pg_known known = { .inertia = sys->full, .residual = spare ? sys->residual : NULL };
+    status = sys->force->work (sys->self, t, state->d, &known, &b->work_balance);
     for (size_t k = 0; spare && k < m->nprescribed; k++) sys->residual[m->prescribed[k]] = 0;
     b->work_balance.strain += contact_energy (sys);
     return status;
@@ -321,7 +319,7 @@ static pg_status account (pg_solver *s, pg_state *state, double t, int staggered
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     double t0 = pg_seconds ();
-    if (!b->system.force->work_balance) return PG_OK;
+    if (!b->system.force->work) return PG_OK;
     PG_TRY (measure_work (s, state, t, staggered));
     if (book) PG_TRY (break_loop_book (b, 1));
     s->report.energy_strain = b->work_balance.strain;
@@ -394,7 +392,7 @@ static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
     PG_TRY (pg_ranks_sum (4, sum));
     double stored = sum[1] + (sum[3] > 0 ? fmax (0, sum[0]) : sum[0]);
     m->most = fmax (m->most, fabs (sum[2]));
-    if ((s->problem->nload == 0 || s->break_loop.system.force->work_balance) && stored > 10 * m->most)
+    if ((s->problem->nload == 0 || s->break_loop.system.force->work) && stored > 10 * m->most)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: "
                  "breaking has made "

@@ -95,7 +95,7 @@ static pg_status account (pg_solver *s, pg_state *state, double factor, double e
     for (int k = 0; k < 2; k++) {
         double scale = e->base ? 1 : ways[k];
         event_move (s, state, ways[k]);
-        PG_TRY (break_loop_account (b, e->base ? ways[k] : 1, e->base ? state->d : e->unit, NULL, scale));
+        PG_TRY (break_loop_account (b, e->base ? ways[k] : 1, e->base ? state->d : e->unit, NULL, 0, scale));
         s->report.energy_strain = scale * scale * b->work_balance.strain;
     }
     e->balance_fresh = 1;

@@ -91,7 +91,7 @@ pg_status moved_balance (break_loop *b, double t, const double *d, double scale)
 {
     double work = b->work;
     pg_work_balance_clear (&b->before);
-    pg_status status = break_loop_account (b, t, d, NULL, scale);
+    pg_status status = break_loop_account (b, t, d, NULL, 0, scale);
     b->work = work;
     return status;
 }

@@ -205,7 +205,7 @@ static pg_status newmark_start (pg_solver *s, pg_state *state)
     if (state->step > 0) goto done;
     PG_TRY (newmark_launch (n, state, state->time));
     PG_TRY (newmark_account (n, &s->break_loop, state, state->time));
-    if (n->system->force->work_balance)
+    if (n->system->force->work)
         s->break_loop.work = s->report.energy_strain + s->report.energy_kinetic;
     if (n->force0) PG_TRY (newmark_remember (n, state->time, state));
 done:

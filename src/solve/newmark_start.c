@@ -193,10 +193,10 @@ pg_status newmark_account (newmark *n, break_loop *b, const pg_state *state, dou
     pg_status status = PG_OK;
     pg_system *sys = n->system;
     sys->report->energy_kinetic = newmark_kinetic (n, state->v);
-    if (!sys->force->work_balance) goto done;
+    if (!sys->force->work) goto done;
     memset (sys->full, 0, sys->ndof * sizeof *sys->full);
     newmark_resist (n, state->v, state->a, sys->full);
-    PG_TRY (sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance));
+    PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = sys->full }, &b->work_balance));
     PG_TRY (break_loop_book (b, 1));
     sys->report->energy_strain = b->work_balance.strain;
 done:

@@ -258,9 +258,9 @@ static pg_status arm (pg_solver *s, const pg_state *state, double t, int breakin
     struct relaxation *x = motion_of (s)->relaxation;
     pg_system *sys = &s->break_loop.system;
     x->armed = 1;
-    if (!sys->force->work_balance || !breaking) return PG_OK;
-    PG_TRY (sys->force->work_balance (sys->self, t, state->d, contact_forces (sys),
-                                      &s->break_loop.work_balance));
+    if (!sys->force->work || !breaking) return PG_OK;
+    PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = contact_forces (sys) },
+                              &s->break_loop.work_balance));
     s->break_loop.work_balance.strain += contact_energy (sys);
     x->pending = 1;
 done:
@@ -396,7 +396,7 @@ static pg_status step_of_held_stage (pg_solver *s, pg_state *state, pg_step *ste
     PG_TRY (explicit_follow (s, t, t, t));
     if (b->round == 0) PG_TRY (open_stage (s, state));
     PG_TRY (hold (s, state, t, step));
-    PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
+    PG_TRY (break_loop_account (b, t, state->d, NULL, 0, 1));
     memset (state->v, 0, state->ndof * sizeof *state->v);
     memset (state->a, 0, state->ndof * sizeof *state->a);
     b->round = 0;
@@ -443,7 +443,7 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
     }
     step->iterations = b->round;
     double t = factor_at (s, n);
-    PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
+    PG_TRY (break_loop_account (b, t, state->d, NULL, 0, 1));
     b->round = 0;
     step->residual = x->worst;
     state->factor = t;

@@ -303,17 +303,16 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
 /* Live bonds over their limit (and its ties) by the utilisation last measured, times scale; *top: the
  * largest. */
 long      break_loop_over   (const break_loop *b, const pg_state *state, double scale, double *top);
-/* The work_balance of (t, d), and with it the work done between the last accounted state and this one (loads
- * scaled by `scale`). */
-pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
-/* break_loop_account_rest (below): work balance and work of a static state in equilibrium. */
+/* The work balance of (t, d), and with it the work done between the last accounted state and this one (loads
+ * scaled by `scale`). rest: 1: a static state in equilibrium. */
+pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, int rest,
+                              double scale);
 /* force_balance.c: do forces and moments of this state balance? Adds to the report; at the end warns. f:
  * what acts on nodes beside loads and supports, inertia among it (ndof; NULL: nothing). In motion at some
  * steps. */
 void      force_balance      (pg_system *s, const double *d, const pg_work_balance *w, const double *f);
 int       force_balance_due  (const pg_system *s);
 void      force_balance_warn (pg_statistics *report, const pg_problem *problem);
-pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale);
 /* The work alone, from the work balance at hand. */
 pg_status break_loop_book    (break_loop *b, double scale);
 /* What work is summed from, and the energies of the report, kept at the start of a step; put back where it is

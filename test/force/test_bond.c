@@ -227,7 +227,7 @@ static void test_reactions (void **unused)
         for (size_t i = 0; i < b.n; i++)
             d[i * b.stride] = -1e-3 / 3 * b.problem->cloud.x[2 * i],
                   d[i * b.stride + 1] = 1e-3 * b.problem->cloud.x[2 * i + 1];
-        check_ok (b.force->work_balance (b.self, 1, d, NULL, &out));
+        check_ok (b.force->work (b.self, 1, d, NULL, &out));
         /* the outermost row of those that bear it */
         assert_true (out.reaction[4] > 0.1 * exact && out.reaction[4] < exact);
         check_relative (out.reaction[1], -out.reaction[4], 1e-9);
@@ -258,7 +258,7 @@ static void test_prescribed (void **unused)
         size_t pair = 0, prescribed = 0;
         for (size_t i = 0; i < b.ndof; i++) d[i] = NAN;
         b.force->impose (b.self, t, d);
-        check_ok (b.force->work_balance (b.self, t, r, NULL, &out));
+        check_ok (b.force->work (b.self, t, r, NULL, &out));
         for (size_t i = 0; i < b.ndof; i++) {
             const double *x = p->cloud.x + i / 2 * 2;
             int load = x[1] < 1e-6 ? (int) (i % 2) : x[1] > 0.7 - 1e-6 ? 2 : -1;

@@ -166,7 +166,7 @@ static double energy_of (double nu, const char *stabilization)
               stabilization);
     bonded b = plate (nu, method, "");
     double *d = random_vector (b.ndof, 11);
-    check_ok (b.force->work_balance (b.self, 1, d, NULL, &work_balance));
+    check_ok (b.force->work (b.self, 1, d, NULL, &work_balance));
     double energy = work_balance.strain;
     pg_work_balance_clear (&work_balance);
     pg_free (d);
@@ -201,8 +201,8 @@ static void supports_bear_inertia (void **unused)
                 if (b.problem->cloud.x[2*i] < 0.1) sum[c] += inertia[i * b.stride + c];
                 else inertia[i * b.stride + c] = 0;
             }
-        check_ok (b.force->work_balance (b.self, 1, d, NULL, &still));
-        check_ok (b.force->work_balance (b.self, 1, d, inertia, &moving));
+        check_ok (b.force->work (b.self, 1, d, NULL, &still));
+        check_ok (b.force->work (b.self, 1, d, &(pg_known){ .inertia = inertia }, &moving));
         for (int c = 0; c < 2; c++)
             check_scaled (moving.reaction[c] - still.reaction[c], -sum[c], 1e-9, fabs (still.reaction[c]));
         pg_work_balance_clear (&still), pg_work_balance_clear (&moving);

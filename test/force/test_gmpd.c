@@ -61,7 +61,7 @@ static void test_two_materials (void **unused)
     pg_work_balance work_balance = { 0 };
     check_ok (b.force->balance (b.self, 0, d, f, &reference));
     for (size_t i = 0; i < b.ndof; i++) work -= 0.5 * f[i] * d[i];
-    check_ok (b.force->work_balance (b.self, 0, d, NULL, &work_balance));
+    check_ok (b.force->work (b.self, 0, d, NULL, &work_balance));
     check_relative (work_balance.strain, work, 1e-12);
     pg_work_balance_clear (&work_balance), pg_free (d), pg_free (f);
     unbonded (&b);
@@ -95,7 +95,7 @@ static void test_bending_ratio (void **unused)
             pg_work_balance work_balance = { 0 };
             double *d = random_vector (b.ndof, 5);
             for (size_t i = 0; i < b.ndof; i++) if (i % b.stride < b.dim) d[i] = 0;
-            check_ok (b.force->work_balance (b.self, 0, d, NULL, &work_balance));
+            check_ok (b.force->work (b.self, 0, d, NULL, &work_balance));
             energy[k] = work_balance.strain;
             pg_work_balance_clear (&work_balance), pg_free (d);
             unbonded (&b);

@@ -42,7 +42,7 @@ static void check_operator (bonded *b)
     K->apply (K->context, x, Kx), K->apply (K->context, y, Ky);
     double size = size_of (b->ndof, x) * size_of (b->ndof, Ky);
     check_scaled (product (b->ndof, x, Ky), product (b->ndof, y, Kx), 1e-13, size);
-    check_ok (b->force->work_balance (b->self, 0, x, NULL, &work_balance));
+    check_ok (b->force->work (b->self, 0, x, NULL, &work_balance));
     check_relative (work_balance.strain, 0.5 * product (b->ndof, x, Kx), 1e-12);
     K->diagonal (K->context, D);
     for (size_t i = 0; i < b->ndof; i += 13) {

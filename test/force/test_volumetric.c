@@ -72,12 +72,12 @@ static void check_operator (bonded *b)
     K->apply (K->context, x, Kx), K->apply (K->context, y, Ky);
     check_scaled (product (b->ndof, x, Ky), product (b->ndof, y, Kx), 1e-13,
                   size_of (b->ndof, x) * size_of (b->ndof, Ky));
-    check_ok (b->force->work_balance (b->self, 0, x, NULL, &work_balance));
+    check_ok (b->force->work (b->self, 0, x, NULL, &work_balance));
     W = work_balance.strain;
     check_relative (W, 0.5 * product (b->ndof, x, Kx), 1e-12);
     for (int k = 0; k < 2; k++) {
         for (size_t i = 0; i < b->ndof; i++) shifted[i] = x[i] + (k ? -1e-3 : 1e-3) * y[i];
-        check_ok (b->force->work_balance (b->self, 0, shifted, NULL, &work_balance));
+        check_ok (b->force->work (b->self, 0, shifted, NULL, &work_balance));
         up[k] = work_balance.strain;
     }
     check_scaled ((up[0] - up[1]) / 2e-3, product (b->ndof, y, Kx), 1e-8, W);
@@ -344,7 +344,7 @@ static void test_nothing_left (void **unused)
             pg_work_balance work_balance = { 0 };
             f[k] = pg_calloc (b[k].ndof, sizeof **f);
             check_ok (b[k].force->balance (b[k].self, 0, d, f[k], NULL));
-            check_ok (b[k].force->work_balance (b[k].self, 0, d, NULL, &work_balance));
+            check_ok (b[k].force->work (b[k].self, 0, d, NULL, &work_balance));
             check_ok (b[k].force->bound (b[k].self, &bound[k]));
             energy[k] = work_balance.strain;
             assert_memory_equal (f[k], f[0], b[k].ndof * sizeof **f);

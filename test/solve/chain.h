@@ -93,8 +93,7 @@ static pg_status chain_impose (void *self, double t, double *d)
     if (the.lead) d[0] = ((chain *) self)->lead (t);
     return PG_OK;
 }
-static pg_status chain_work_balance (void *self, double t, const double *d, const double *inertia,
-                                     pg_work_balance *out)
+static pg_status chain_work (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out)
 {
     pg_status status = PG_OK;
     const chain *c = self;
@@ -106,7 +105,7 @@ static pg_status chain_work_balance (void *self, double t, const double *d, cons
         PG_ALLOC (out->reaction, 3);
     }
     chain_balance (self, t, d, r, NULL);
-    out->force[0] = c->lead ? -(r[0] + (inertia ? inertia[0] : 0)) : 0,
+    out->force[0] = c->lead ? -(r[0] + (known && known->inertia ? known->inertia[0] : 0)) : 0,
     out->displacement[0] = c->lead ? d[0] : 0;
     out->reaction[0] = out->force[0];
     out->force[1] = c->push ? c->push (t) : 0, out->displacement[1] = d[c->n - 1];
@@ -139,7 +138,7 @@ static const pg_force_type chain_type = { .method = { .name = "chain" },
                                           .matrix = chain_matrix,
                                           .basis = chain_basis,
                                           .impose = chain_impose,
-                                          .work_balance = chain_work_balance,
+                                          .work = chain_work,
                                           .external = chain_external,
                                           .row_sums = chain_row_sums };
 
