@@ -64,6 +64,30 @@ typedef struct {
     size_t  nnode;  int *node;  /* nodes whose unknowns make displacement and stress there, ascending */
 } pg_bond_group;
 void pg_bond_group_clear (pg_bond_group *group);
+/* What is asked of bonds. Arrays that are NULL are not wanted. */
+typedef struct {
+    /* Of all bonds (nbond numbers each), or of those of `group` in its order (n each; the displacement is read
+     * at the nodes of the group alone): utilisation; what a bond would break of, 't' tension, 's' shear, 'b'
+     * bending ...; the load factor of its limit, the displacement being that of factor 1. Broken bonds, and
+     * those that never break: 0, INFINITY. */
+    const pg_bond_group *group;
+    double *utilisation, *factor;
+    char   *kind;
+    /* over: the worst bonds alone. *top is the largest utilisation of an intact bond, of all ranks; where it is
+     * above 1, `over` gets the bonds of this rank from utilisation `from` on, ascending (freed by the caller):
+     * utilisation and kind have a meaning at their places alone. */
+    pg_changes *over;
+    double from, *top;
+    /* count > 0: so many displacements, d[unknown * count + k]. top[k] is the largest utilisation of an intact
+     * bond that is not marked in left_out (nbond bytes); of_unit: one over the least load factor instead.
+     * Sums may run in another order than for one displacement. */
+    size_t count;
+    const unsigned char *left_out;
+    int of_unit;
+} pg_judging;
+/* The worst bonds (pg_judging.over) where the utilisation of all of them is known. */
+pg_status pg_worst_bonds (const pg_problem *problem, const pg_state *state, const double *utilisation,
+                          double from, double *top, pg_changes *over);
 /* The jump of the displacement at places on cracks, or the displacement at places on the surface: that of
  * place q is the sum of value[e] times the unknowns of node[e], component by component, over e from start[q]
  * to before start[q + 1]. */
@@ -103,10 +127,8 @@ typedef struct {
     /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
     const pg_sparse   *(*basis)     (void *self);
     pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them */
-    /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being
-     * that of factor 1. Dead ones: 0, INFINITY. */
-    pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation,
-                              char *kind, double *factor);
+    /* What bonds use of their limits at d (pg_judging). NULL: nothing can break. */
+    pg_status (*judge) (void *self, const pg_state *state, const double *d, const pg_judging *what);
     /* The work balance of (t, d); known NULL: nothing is. `out` is sized on the first call. NULL: none. */
     pg_status (*work) (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out);
     /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress"
@@ -186,30 +208,16 @@ typedef struct {
     /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
      * criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);
-    /* The largest utilisation of a live bond at d, and, if it is above 1, in `over` (ascending; freed by the
-     * caller) all bonds whose utilisation is at least `from`, which is then in `utilisation` at their places,
-     * as is the kind; other places of the two arrays (one for each bond) have no meaning. NULL: utilisation
-     * tells. */
-    pg_status (*worst) (void *self, const pg_state *state, const double *d, double from, double *utilisation,
-                        char *kind, double *top, pg_changes *over);
     /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
      * NULL: balance does. */
     pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);
     /* What the evaluation points of these bonds have of K x, N (ndof), before a refresh by these changes or
      * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
     pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
-    /* Groups of bonds (all three entries, or none). gather: fills in what belongs to group->bond, whatever it
-     * held before; *can 0: not with this problem, as stresses reach further than the bonds. judge_group: as
-     * utilisation, for the bonds of the group in their order (n each), d being read at the nodes of the group
-     * alone; any of the three arrays may be NULL. judge_others: of all bonds that live and are not marked in
-     * `left_out` (nbond bytes), top[k] = the largest utilisation at displacement k of `count`,
-     * d[unknown * count + k]; of_unit: these are displacements of load factor 1, and top[k] is one over the
-     * least factor instead. No bits are promised here: sums may run in another order. */
+    /* Fills in what belongs to group->bond, whatever the group held before, so that it can be judged by
+     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: `judge` knows all
+     * bonds alone, at one displacement. */
     pg_status (*gather) (void *self, pg_bond_group *group, int *can);
-    pg_status (*judge_group) (void *self, const pg_state *state, const pg_bond_group *group, const double *d,
-                              double *utilisation, char *kind, double *factor);
-    pg_status (*judge_others) (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
-                               size_t count, const double *d, double *top);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
      * NULL: not known. */

@@ -127,8 +127,7 @@ pg_status bond_force_couplings (void *self, pg_couplings *out);
 pg_status bond_force_omega (const bond_force *b, double *omega);
 pg_status bond_force_bound (void *self, double *omega);
 /* fields */
-pg_status bond_force_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
-                            char *kind, double *factor);
+pg_status bond_force_judge (void *self, const pg_state *state, const double *d, const pg_judging *what);
 pg_status bond_force_field (void *self, const pg_state *state, const double *d, const char *name,
                             int *components,
                       const char **unit, double *value);
@@ -165,7 +164,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
 #define BOND_FORCE_COMMON \
     .free = bond_force_free, .fields = bond_force_fields, .refresh = bond_force_refresh, \
     .balance = bond_force_balance, .mass = bond_force_mass, .operator_ = bond_force_operator, \
-    .basis = bond_force_basis, .impose = bond_force_impose, .utilisation = bond_force_utilisation, \
+    .basis = bond_force_basis, .impose = bond_force_impose, .judge = bond_force_judge, \
     .work = bond_force_work, \
     .field = bond_force_field, .overlap = bond_force_overlap, \
     .census = bond_force_census, .join = bond_force_join, .loads = bond_force_external, \

@@ -117,17 +117,19 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
 }
 
 /* Of every bond; criteria of energies are asked for points instead. */
-pg_status bond_force_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
-                            char *kind, double *factor)
+pg_status bond_force_judge (void *self, const pg_state *state, const double *d, const pg_judging *w)
 {
+    pg_status status = PG_OK;
     bond_force *b = self;
-    judging s = { b, state, d, utilisation, factor, kind };
+    judging s = { b, state, d, w->utilisation, w->factor, w->kind };
     if (!b->problem->criterion->type)
-        return pg_error (PG_E_USAGE, PG_HERE, "there is no failure criterion, and so no utilisation");
+        PG_FAIL (PG_E_USAGE, "there is no failure criterion, and so no utilisation");
     if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
-        return bond_force_energy_utilisation (b, state, d, utilisation, kind, factor);
-    pg_parallel (b->threads, b->n, judge_points, &s);
-    return PG_OK;
+        PG_TRY (bond_force_energy_utilisation (b, state, d, w->utilisation, w->kind, w->factor));
+    else pg_parallel (b->threads, b->n, judge_points, &s);
+    if (w->over) PG_TRY (pg_worst_bonds (b->problem, state, w->utilisation, w->from, w->top, w->over));
+done:
+    return status;
 }
 
 /* ---- at points ----------------------------------------------------------------------------------------- */

@@ -405,10 +405,11 @@ typedef struct {
 pg_status galerkin_judge_batch (galerkin_batch *b);
 /* s1 and s3 of a point by the stress measured last. */
 void galerkin_principal (galerkin *g, int set, size_t p);
-pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
+/* pg_force_type.judge, and its parts: of all bonds; worst: the worst bonds alone */
+pg_status galerkin_judge_bonds (void *self, const pg_state *state, const double *d, const pg_judging *what);
+pg_status galerkin_utilisation (galerkin *g, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor);
-/* worst: the worst bonds alone */
-pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
+pg_status galerkin_worst (galerkin *g, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over);
 /* stretch: the same where elongation decides (pg_problem_breaks_by_elongation) */
 pg_status galerkin_longest (galerkin *g, const pg_state *state, const double *d, double from,
@@ -427,9 +428,7 @@ size_t galerkin_limits_of (const galerkin *g, int set, size_t count, const size_
 int galerkin_one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point);
 /* groups */
 pg_status galerkin_gather (void *self, pg_bond_group *group, int *can);
-pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond_group *group,
-                                const double *d, double *utilisation, char *kind, double *factor);
-pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out,
+pg_status galerkin_judge_others (galerkin *g, const pg_state *state, const unsigned char *left_out,
                                  int of_unit, size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at);

@@ -192,11 +192,10 @@ static void principal_points (void *context, size_t first, size_t last, int thre
 }
 
 /* Of every bond of every set. Stresses at all sets first, as a bond joins a point of its set with a node. */
-pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
+pg_status galerkin_utilisation (galerkin *g, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     PG_TRY (galerkin_find_judged (g));
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_rows *r = &g->rows[set];
@@ -214,13 +213,11 @@ done:
     return status;
 }
 
-/* Utilisation, kind and load factor of the bonds of a group; those that are not judged have utilisation 0 and
- * an infinite factor. Stresses and displacements are measured at the ends of the group's bonds alone. */
-pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond_group *group,
-                                const double *d, double *utilisation, char *kind, double *factor)
+/* Bonds of a group: stresses and displacements are measured at their ends alone. */
+static pg_status judge_group (galerkin *g, const pg_state *state, const pg_bond_group *group, const double *d,
+                              double *utilisation, char *kind, double *factor)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     size_t bond[BATCH], point[BATCH], to[BATCH];
     PG_TRY (galerkin_find_judged (g));
     for (int set = 0; set < PG_BOND_SETS; set++) {
@@ -244,6 +241,15 @@ pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond
     }
 done:
     return status;
+}
+
+pg_status galerkin_judge_bonds (void *self, const pg_state *state, const double *d, const pg_judging *w)
+{
+    galerkin *g = self;
+    if (w->count) return galerkin_judge_others (g, state, w->left_out, w->of_unit, w->count, d, w->top);
+    if (w->group) return judge_group (g, state, w->group, d, w->utilisation, w->kind, w->factor);
+    if (w->over) return galerkin_worst (g, state, d, w->from, w->utilisation, w->kind, w->top, w->over);
+    return galerkin_utilisation (g, state, d, w->utilisation, w->kind, w->factor);
 }
 
 /* Stretch of a bond xi along a unit vector n by the strain at p and j in the mean, m: n . eps xi. */

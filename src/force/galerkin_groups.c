@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Groups of bonds, and all others. A group is looked at after every event (galerkin_judge_group in
- * galerkin_bonds.c); all other bonds are looked at for many displacements at once, as a proof afterwards that
+ * Groups of bonds, and all others. A group is looked at after every event (judge_group in galerkin_bonds.c); all other bonds are looked at for many displacements at once, as a proof afterwards that
  * none of them would have broken in between. Of a point, displacement or stresses are made for all these
  * displacements in one pass over its shape functions, so that these are read once instead of once an event;
  * where the criterion is a linear form of what a bond shows (pg_criterion_type.linear, .planes), a bond is a
@@ -316,11 +315,10 @@ static int is_linear (const pg_problem *p, int stress)
 }
 
 /* Nodes first, as every bond ends at one; then the points of each set in turn. */
-pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out,
+pg_status galerkin_judge_others (galerkin *g, const pg_state *state, const unsigned char *left_out,
                                  int of_unit, size_t count, const double *d, double *top)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     size_t dim = (size_t) g->dim, threads = (size_t) (g->threads > 1 ? g->threads : 1);
     int stress = (g->problem->criterion->type->needs & PG_NEEDS_STRESS) != 0;
     others o = { g, state, left_out, 0, stress, count, stress ? 2 : dim, d, NULL, NULL, NULL, 0 };

@@ -130,32 +130,6 @@ double galerkin_largest (const galerkin *g, double mine)
     return mine;
 }
 
-/* The largest utilisation, and if it is above 1 the bonds from `from` on, by looking at all that this rank
- * owns. */
-static pg_status utilisation_over (const galerkin *g, const pg_state *state, const double *utilisation,
-                                   double from, double *top, pg_changes *over)
-{
-    pg_status status = PG_OK;
-    double most = 0;
-    over->n = 0;
-    for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &g->rows[set].family;
-        size_t base = g->problem->first_bond[set];
-        for (size_t p = 0; p < f->n; p++)
-            for (size_t i = base + f->start[p]; i < base + f->start[p + 1]; i++) {
-                if (!(utilisation[i] > 0) || !pg_problem_owns (g->problem, set, p)) continue;
-                most = fmax (most, utilisation[i]);
-                if (!state->alive[i] || !(utilisation[i] >= from)) continue;
-                PG_GROW (over->bond, over->cap, over->n + 1);
-                over->bond[over->n++] = i;
-            }
-    }
-    *top = galerkin_largest (g, most);
-    if (!(*top > 1)) over->n = 0;
-done:
-    return status;
-}
-
 /* A search among bonds. Utilisation by stress is the largest of some linear functions of the mean (s1, s3) of
  * both ends, so that a bond uses at most the mean of what its ends would use alone: only bonds are judged for
  * which this bound is above `least`. */
@@ -273,18 +247,18 @@ done:
 /* The largest utilisation of a live bond, and if it is above 1, all bonds from `from` on, ascending, with
  * utilisation and kind at their places of the two arrays (the other places have no meaning). The same numbers
  * as galerkin_utilisation, of the few bonds that matter. */
-pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
+pg_status galerkin_worst (galerkin *g, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     search s = { .batch.judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
+    int plain = g->problem->plain;
     over->n = 0;
-    if (pg_problem_breaks_by_elongation (g->problem))
+    if (!plain && pg_problem_breaks_by_elongation (g->problem))
         return galerkin_longest (g, state, d, from, utilisation, kind, top, over);
-    if (g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
+    if (plain || g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
         PG_TRY (galerkin_utilisation (g, state, d, utilisation, kind, NULL));
-        return utilisation_over (g, state, utilisation, from, top, over);
+        return pg_worst_bonds (g->problem, state, utilisation, from, top, over);
     }
     PG_TRY (find_bounds (g, d));
     for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->alone[PG_NODES][i]);

@@ -46,7 +46,7 @@ void break_loop_free (break_loop *b)
 
 int break_loop_judges (const break_loop *b)
 {
-    return b->system.force->utilisation && pg_criterion_of_bonds (b->system.problem->criterion);
+    return b->system.force->judge && pg_criterion_of_bonds (b->system.problem->criterion);
 }
 
 /* Finds the bond set of a broken bond and its middle, half way between the point that owns it and the node
@@ -187,12 +187,6 @@ static double most_of (const break_loop *b, const double *a, double sign, double
 double break_loop_largest (const break_loop *b, const double *a) { return most_of (b, a, 1, 0); }
 double break_loop_smallest (const break_loop *b, const double *a) { return -most_of (b, a, -1, -INFINITY); }
 
-/* The force finds the worst bonds without judging all. */
-static int judges_few (const break_loop *b)
-{
-    return b->system.force->worst && !b->system.options->plain;
-}
-
 /* One round of breaking among the bonds listed. */
 static pg_status kill_listed (break_loop *b, pg_state *state, double cut, double t)
 {
@@ -235,13 +229,9 @@ pg_status break_loop_look (break_loop *b, const pg_state *state, const double *d
     pg_system *s = &b->system;
     double t0 = pg_seconds ();
     PG_TRY (break_loop_ready (b));
-    if (judges_few (b)) {
-        PG_TRY (s->force->worst (s->self, state, d, 1 - s->options->tie, b->utilisation, b->kind, top,
-                                 &b->over));
-        goto done;
-    }
-    PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
-    *top = break_loop_largest (b, b->utilisation);
+    pg_judging worst = { .utilisation = b->utilisation, .kind = b->kind, .over = &b->over,
+                         .from = 1 - s->options->tie, .top = top };
+    PG_TRY (s->force->judge (s->self, state, d, &worst));
 done:
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;
@@ -267,8 +257,7 @@ static pg_status break_worst (break_loop *b, pg_state *state, double t, const do
                  "solver.max_iterations "
                  "or take smaller steps",
                  step->iterations, b->nbroken, top);
-    if (judges_few (b)) PG_TRY (kill_listed (b, state, cut, t));
-    else PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
+    PG_TRY (kill_listed (b, state, cut, t));
     PG_TRY (system_break (&b->system, state, &b->changes, d, dyn));
 done:
     return status;
@@ -335,11 +324,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         if (!judges) break;
         if (!rough) PG_TRY (break_loop_look (b, state, d, &top));
         step->utilisation = top;
-        if (!(top > 1)) {
-            if (!judges_few (b))
-                s->report->bonds_over_limit += break_loop_over (b, state, 1, &step->utilisation);
-            break;
-        }
+        if (!(top > 1)) break;
         PG_TRY (break_worst (b, state, t, d, dyn, step, top));
     }
     if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));

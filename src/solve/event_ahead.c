@@ -51,8 +51,7 @@ static int possible (const pg_solver *s)
     const break_loop *b = &s->break_loop;
     const pg_force_type *f = b->system.force;
     return !s->problem->plain && e->engine && !e->base && !b->growth && break_loop_judges (b)
-           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather && f->judge_group
-           && f->judge_others && event_solver_has_base (e->engine);
+           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather && event_solver_has_base (e->engine);
 }
 
 int ahead_waits (const event_ahead *q) { return q && q->at < q->nevent; }
@@ -119,7 +118,7 @@ static pg_status make_zone (pg_solver *s, event_ahead *q, const pg_state *state)
     break_loop *b = &s->break_loop;
     double best = INFINITY, share;
     PG_TRY (break_loop_ready (b));
-    PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, NULL, NULL, b->factor));
+    PG_TRY (b->system.force->judge (b->system.self, state, e->unit, &(pg_judging){ .factor = b->factor }));
     for (size_t i = 0; i < state->nbond; i++) if (b->factor[i] < best) best = b->factor[i];
     q->zone.known = 0;
     if (!isfinite (best)) goto done;
@@ -171,7 +170,8 @@ static pg_status look_over_group (pg_solver *s, event_ahead *q, const pg_state *
         for (size_t i = (size_t) g->node[k] * c; i < ((size_t) g->node[k] + 1) * c; i++)
             q->scaled[i] = factor * q->d[i];
     PG_TRY (
-        b->system.force->judge_group (b->system.self, state, g, q->scaled, q->utilisation, q->kind, NULL));
+        b->system.force->judge (b->system.self, state, q->scaled,
+                                &(pg_judging){ .group = g, .utilisation = q->utilisation, .kind = q->kind }));
     *top = 0;
     for (size_t i = 0; i < g->n; i++) *top = fmax (*top, q->utilisation[i]);
 done:
@@ -190,7 +190,8 @@ static pg_status choose (pg_solver *s, event_ahead *q, pg_state *state, double l
            best = INFINITY, top;
     ahead_event *v = &q->event[q->nevent];
     PG_TRY (
-        b->system.force->judge_group (b->system.self, state, g, q->d, q->utilisation, q->kind, q->factor));
+        b->system.force->judge (b->system.self, state, q->d,
+           &(pg_judging){ .group = g, .utilisation = q->utilisation, .kind = q->kind, .factor = q->factor }));
     for (size_t i = 0; i < g->n; i++) if (q->factor[i] < best) best = q->factor[i];
     *why = 1;
     if (!(best < level) || !(best > 0)) goto done;
@@ -262,7 +263,8 @@ static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *g
     q->stride = q->nevent;
     if (!q->block) PG_ALLOC (q->block, sys->ndof * AHEAD_MOST);
     PG_TRY (event_solver_block (e->engine, 0, (int) q->nevent, list, q->block));
-    PG_TRY (sys->force->judge_others (sys->self, state, q->zone.left_out, 1, q->stride, q->block, top));
+    PG_TRY (sys->force->judge (sys->self, state, q->block,
+                &(pg_judging){ .count = q->stride, .left_out = q->zone.left_out, .of_unit = 1, .top = top }));
     for (*good = 0; *good < q->nevent && q->event[*good].factor * cold < 1 - width; ++*good)
         cold = top[*good];
     if (*good < q->nevent) {

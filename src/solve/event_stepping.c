@@ -241,7 +241,8 @@ static pg_status worst_here (pg_solver *s, const pg_state *state, double *top, d
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+    PG_TRY (b->system.force->judge (b->system.self, state, state->d,
+                                    &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
     memcpy (b->factor, b->utilisation, state->nbond * sizeof *b->factor);
     *top = break_loop_largest (b, b->factor), *scale = 1;
 done:
@@ -332,7 +333,8 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     if (some || !grows) {
         *scale = 1;
         PG_TRY (
-            b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+            b->system.force->judge (b->system.self, state, state->d,
+                                    &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
         over = break_loop_over (b, state, *scale, &step->utilisation);
     }
     if (!events_of (s)->unstable.held) s->report.bonds_over_limit += over;   /* else about to break */
@@ -391,8 +393,8 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
     else if (ahead) next = ahead_factor (e->ahead, &step->utilisation);
     else if (break_loop_judges (b)) {
         PG_TRY (break_loop_ready (b));
-        PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, b->utilisation, b->kind,
-                                              b->factor));
+        PG_TRY (b->system.force->judge (b->system.self, state, e->unit,
+                       &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind, .factor = b->factor }));
         next = break_loop_smallest (b, b->factor);
     }
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;

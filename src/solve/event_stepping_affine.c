@@ -32,7 +32,8 @@ static pg_status look (pg_solver *s, pg_state *state, double factor, double *uti
         *top = facet_utilisation (b, state, factor - stage_start (s));
         goto done;
     }
-    PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
+    PG_TRY (b->system.force->judge (b->system.self, state, state->d,
+                                    &(pg_judging){ .utilisation = utilisation, .kind = b->kind }));
     *top = break_loop_largest (b, utilisation);
 done:
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;

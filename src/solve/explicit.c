@@ -164,7 +164,8 @@ static pg_status break_by_utilisation (pg_solver *s, pg_state *state, double t)
     pg_system *sys = &b->system;
     double t0 = pg_seconds ();
     PG_TRY (break_loop_ready (b));
-    PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
+    PG_TRY (sys->force->judge (sys->self, state, state->d,
+                               &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
     PG_TRY (break_loop_kill (b, state, b->utilisation, 1, 1, t));
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     if (b->changes.n) PG_TRY (system_refresh (sys, state, &b->changes));
@@ -218,7 +219,7 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     pg_system *sys = &b->system;
     const pg_force_type *force = sys->force;
     double t0 = pg_seconds (), unused;
-    breaking = breaking && !b->growth && (force->balance_and_break || force->utilisation)
+    breaking = breaking && !b->growth && (force->balance_and_break || force->judge)
                && s->problem->criterion->type;
     b->changes.n = 0;
     if (breaking && force->balance_and_break)

@@ -176,7 +176,8 @@ static pg_status look_at_rest (pg_solver *s, instability *u, pg_state *state, do
         goto done;
     }
     event_displacement (s, factor, u->rest);
-    PG_TRY (b->system.force->utilisation (b->system.self, state, u->rest, b->utilisation, b->kind, NULL));
+    PG_TRY (b->system.force->judge (b->system.self, state, u->rest,
+                                    &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
     *top = break_loop_largest (b, b->utilisation);
 done:
     return status;

@@ -293,7 +293,8 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
     if (tested) PG_TRY (examine (s, state, t, 1));
     else {
         PG_TRY (break_loop_ready (b));
-        PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
+        PG_TRY (sys->force->judge (sys->self, state, state->d,
+                                   &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
         step->utilisation = top = break_loop_largest (b, b->utilisation);
         /* Bonds at cut or above break. Of the worst those within `tie` of it, so that bonds that are
          * equal by symmetry break together; a share of the worst is wider, but takes none below its

@@ -50,14 +50,16 @@ static pg_status judge_both (break_loop *b, const pg_state *state, const double 
     pg_bond_group group = { .n = 0 };
     double t0 = pg_seconds ();
     PG_TRY (break_loop_ready (b));
-    PG_TRY (s->force->worst (s->self, state, d, near, b->utilisation, b->kind, top, &b->over));
+    PG_TRY (s->force->judge (s->self, state, d,
+        &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind, .over = &b->over, .from = near, .top = top }));
     if (!(*top > 1)) goto done;
     PG_ALLOC (group.bond, b->over.n);
     memcpy (group.bond, b->over.bond, b->over.n * sizeof *group.bond);
     group.n = b->over.n;
     PG_GROW (r->earlier_u, r->room_u, group.n);
     PG_TRY (s->force->gather (s->self, &group, can));
-    if (*can) PG_TRY (s->force->judge_group (s->self, state, &group, r->before, r->earlier_u, NULL, NULL));
+    if (*can) PG_TRY (s->force->judge (s->self, state, r->before,
+                                       &(pg_judging){ .group = &group, .utilisation = r->earlier_u }));
 done:
     pg_bond_group_clear (&group);
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
@@ -98,7 +100,7 @@ done:
 /* Also the first share of a run. */
 static int may_be_rough (pg_system *s)
 {
-    if (system_is_shared (s) || !s->force->worst || !s->force->judge_group || s->options->plain
+    if (system_is_shared (s) || !s->force->gather || s->options->plain
         || s->rough.share < 0 || s->contact)
         return 0;
     if (s->rough.share == 0) s->rough.share = fmin (first_share, largest_share (s));
@@ -160,7 +162,8 @@ static pg_status judge_view (looking *w, pg_rough_view *v)
     if (v->list == w->list) return PG_OK;
     PG_GROW (v->u, v->room, w->candidates.n);
     place_view (w, v, w->at);
-    PG_TRY (s->force->judge_group (s->self, w->state, &w->candidates, w->at, v->u, NULL, NULL));
+    PG_TRY (s->force->judge (s->self, w->state, w->at,
+                             &(pg_judging){ .group = &w->candidates, .utilisation = v->u }));
     v->list = w->list;
 done:
     return status;

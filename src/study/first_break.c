@@ -36,11 +36,12 @@ static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solve
     double *factor = NULL, *utilisation = NULL;
     char *kind = NULL;
     b->factor = INFINITY;
-    if (!pg_criterion_of_bonds (p->criterion) || !force->utilisation || state->nbond == 0) return PG_OK;
+    if (!pg_criterion_of_bonds (p->criterion) || !force->judge || state->nbond == 0) return PG_OK;
     PG_ALLOC (factor, state->nbond);
     PG_ALLOC (utilisation, state->nbond);
     PG_ALLOC (kind, state->nbond);
-    PG_TRY (force->utilisation (self, state, state->d, utilisation, kind, factor));
+    PG_TRY (force->judge (self, state, state->d,
+                          &(pg_judging){ .utilisation = utilisation, .kind = kind, .factor = factor }));
     size_t worst = worst_bond (b, state->nbond, factor, utilisation);
     b->factor = factor[worst], b->utilisation = utilisation[worst], b->kind = kind[worst];
     if (!b->proportional) b->factor = b->utilisation > 0 ? 1 / b->utilisation : INFINITY;

@@ -95,7 +95,8 @@ static void energies_are_plain_sums (void **unused)
         char *kind = pg_calloc (b.state->nbond, 1);
         const pg_family *f = &b.problem->rows[PG_NODES].family;
         for (size_t i = 0; i < b.ndof; i++) u[i] *= 1e-5;
-        check_ok (b.force->utilisation (b.self, b.state, u, share, kind, factor));
+        check_ok (b.force->judge (b.self, b.state, u,
+                                  &(pg_judging){ .utilisation = share, .kind = kind, .factor = factor }));
         for (size_t i = 0; i < b.n; i++) top = fmax (top, sqrt (plain_energy (&b, i, u) / critical (&b, i)));
         for (size_t i = 0; i < b.n; i++)
             for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {

@@ -30,7 +30,7 @@ static void what_is_exempt_never_breaks (void **unused)
         double *d = random_vector (b.ndof, 3), *u = pg_calloc (b.state->nbond, sizeof *u);
         char *kind = pg_calloc (b.state->nbond, 1);
         size_t near = 0, far = 0, crossing = 0;
-        check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
+        check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u, .kind = kind }));
         for (int set = 0; set < PG_BOND_SETS; set++) {
             const pg_rows *r = &b.problem->rows[set];
             size_t base = b.problem->first_bond[set];

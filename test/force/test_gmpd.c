@@ -247,10 +247,12 @@ static void test_breaking (void **unused)
                 char *kind = pg_calloc (b.state->nbond, 1);
                 int seen[128] = { 0 };
                 pg_changes broken = { 0 };
-                check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
+                check_ok (b.force->judge (b.self, b.state, d,
+                                          &(pg_judging){ .utilisation = u, .kind = kind }));
                 for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
                 for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.7 / most;
-                check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
+                check_ok (b.force->judge (b.self, b.state, d,
+                                          &(pg_judging){ .utilisation = u, .kind = kind }));
                 check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
                 assert_true (broken.n > 10 && broken.n < b.state->nbond);
                 size_t at = 0;
@@ -270,7 +272,8 @@ static void test_breaking (void **unused)
                 double H[9] = { 0 };
                 for (size_t a = 0; a < b.dim; a++) H[a * b.dim + a] = -10;
                 double *squeeze = linear_field (&b, H);
-                check_ok (b.force->utilisation (b.self, b.state, squeeze, u, kind, NULL));
+                check_ok (b.force->judge (b.self, b.state, squeeze,
+                                          &(pg_judging){ .utilisation = u, .kind = kind }));
                 for (size_t e = 0; e < b.state->nbond; e++) check_absolute (u[e], 0, 1e-9);
                 pg_free (squeeze), pg_free (g), pg_free (d), pg_free (f), pg_free (u), pg_free (kind),
                     pg_free (broken.bond);
@@ -315,10 +318,10 @@ static void test_breaking_graded (void **unused)
                *u = pg_calloc (b.state->nbond, sizeof *u), reference, most = 0;
         char *kind = pg_calloc (b.state->nbond, 1);
         pg_changes broken = { 0 };
-        check_ok (b.force->utilisation (b.self, b.state, d, u, NULL, NULL));
+        check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u }));
         for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
         for (size_t i = 0; i < b.ndof; i++) d[i] *= 2.5 / most;
-        check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
+        check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u, .kind = kind }));
         check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
         assert_true (broken.n > 20 && broken.n < b.state->nbond - 20);
         size_t at = 0;

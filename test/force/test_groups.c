@@ -53,10 +53,12 @@ static void compare (const char *text, double dead)
     check_ok (f->gather (self, &group, &can));
     assert_true (can && group.nnode <= r.problem->cloud.n);
     double *gu = pg_calloc (group.n, sizeof *gu), *gf = pg_calloc (group.n, sizeof *gf);
-    check_ok (f->judge_others (self, r.state, left_out, 1, COUNT, block, top));
+    check_ok (f->judge (self, r.state, block,
+                        &(pg_judging){ .count = COUNT, .left_out = left_out, .of_unit = 1, .top = top }));
     for (size_t k = 0; k < COUNT; k++) {
         for (size_t i = 0; i < n; i++) d[i] = block[i * COUNT + k];
-        check_ok (f->utilisation (self, r.state, d, u, kind, factor));
+        check_ok (f->judge (self, r.state, d,
+                            &(pg_judging){ .utilisation = u, .kind = kind, .factor = factor }));
         double others = 0, all = most (u, nbond);
         for (size_t i = 0; i < nbond; i++) if (!left_out[i]) others = fmax (others, 1 / factor[i]);
         assert_true (others > 0 && fabs (top[k] - others) <= 1e-12 * all);
@@ -66,16 +68,18 @@ static void compare (const char *text, double dead)
         for (size_t i = 0; i < group.nnode; i++)
             for (size_t c = 0; c < dim; c++)
                 d[(size_t) group.node[i] * dim + c] = block[((size_t) group.node[i] * dim + c) * COUNT + k];
-        check_ok (f->judge_group (self, r.state, &group, d, gu, kind_of, gf));
+        check_ok (f->judge (self, r.state, d,
+                         &(pg_judging){ .group = &group, .utilisation = gu, .kind = kind_of, .factor = gf }));
         for (size_t i = 0; i < group.n; i++) {
             size_t b = group.bond[i];
             assert_true (gu[i] == u[b] && gf[i] == factor[b]);
             if (gu[i] > 0) assert_int_equal (kind_of[i], kind[b]);
         }
     }
-    check_ok (f->judge_others (self, r.state, left_out, 0, COUNT, block, top));
+    check_ok (f->judge (self, r.state, block,
+                        &(pg_judging){ .count = COUNT, .left_out = left_out, .top = top }));
     for (size_t i = 0; i < n; i++) d[i] = block[i * COUNT + 2];
-    check_ok (f->utilisation (self, r.state, d, u, NULL, NULL));
+    check_ok (f->judge (self, r.state, d, &(pg_judging){ .utilisation = u }));
     double others = 0;
     for (size_t i = 0; i < nbond; i++) if (!left_out[i]) others = fmax (others, u[i]);
     assert_true (fabs (top[2] - others) <= 1e-12 * most (u, nbond));

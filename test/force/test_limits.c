@@ -57,7 +57,7 @@ static void check_means (const scene *a, int mohr_coulomb)
                                   + 0.7 * cos (3 * x[1] / size - (double) k)
                                   + (b.dim == 3 ? 0.5 * sin (2.5 * x[2] / size) : 0));
         }
-    check_ok (b.force->utilisation (b.self, b.state, d, u, NULL, f));
+    check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u, .factor = f }));
     double *node = principals (&b, d, b.n, p->cloud.x);
     size_t sets = 0, apart = 0;
     for (int set = 0; set < PG_BOND_SETS; set++) {
@@ -117,7 +117,8 @@ static void dead_bonds_have_no_utilisation (void **unused)
                  e < b.problem->rows[PG_NODES].family.start[i + 1]; e++)
                 b.state->alive[e] = (i + (size_t) b.problem->rows[PG_NODES].family.node[e]) % 3 > 0;
         check_ok (b.force->refresh (b.self, b.state, NULL));
-        check_ok (b.force->utilisation (b.self, b.state, d, u, kind, f));
+        check_ok (b.force->judge (b.self, b.state, d,
+                                  &(pg_judging){ .utilisation = u, .kind = kind, .factor = f }));
         for (size_t i = 0; i < n; i++) {
             if (!b.state->alive[i]) assert_true (u[i] == 0 && f[i] == INFINITY);
             live += b.state->alive[i] && u[i] > 0;
@@ -195,7 +196,7 @@ static void check_twins (int dim, const char *method, const char *failure)
     for (size_t i = 0; i < n; i++)                     /* twice the displacement, the same rotation */
         for (size_t k = 0; k < b.stride; k++)
             d[(n + i) * b.stride + k] = (k < b.dim ? 2 : 1) * d[i * b.stride + k];
-    check_ok (b.force->utilisation (b.self, b.state, d, u, NULL, f));
+    check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u, .factor = f }));
     size_t half = family->start[n], broken = 0;
     assert_int_equal (family->start[2 * n], 2 * half);
     for (size_t e = 0; e < half; e++) {

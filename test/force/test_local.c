@@ -91,10 +91,11 @@ static void compare (const run *r, const double *d)
     double *u = pg_calloc (nbond, sizeof *u), *few = pg_calloc (nbond, sizeof *few), top, most = 0;
     char *kind = pg_calloc (nbond, 1), *same = pg_calloc (nbond, 1);
     pg_changes over = { 0 };
-    check_ok (f->worst (kept, r->state, d, 0.9, few, same, &top, &over));
+    check_ok (f->judge (kept, r->state, d,
+                 &(pg_judging){ .utilisation = few, .kind = same, .over = &over, .from = 0.9, .top = &top }));
     check_ok (f->create (&fresh, r->problem));
     check_ok (f->refresh (fresh, r->state, NULL));
-    check_ok (f->utilisation (fresh, r->state, d, u, kind, NULL));
+    check_ok (f->judge (fresh, r->state, d, &(pg_judging){ .utilisation = u, .kind = kind }));
     for (size_t i = 0; i < nbond; i++) most = fmax (most, u[i]);
     assert_true (top == most);
     for (size_t i = 0; i < nbond && most > 1; i++) {
@@ -104,7 +105,7 @@ static void compare (const run *r, const double *d)
         at++;
     }
     assert_int_equal (at, over.n);
-    check_ok (f->utilisation (kept, r->state, d, few, same, NULL));
+    check_ok (f->judge (kept, r->state, d, &(pg_judging){ .utilisation = few, .kind = same }));
     assert_memory_equal (u, few, nbond * sizeof *u);
     f->free (&fresh);
     pg_free (u), pg_free (few), pg_free (kind), pg_free (same), pg_free (over.bond);
@@ -123,7 +124,7 @@ static void judge_a_group (const run *r, const double *d)
     memcpy (group.bond, bonds, sizeof bonds);
     check_ok (f->gather (self, &group, &can));
     assert_true (can);
-    check_ok (f->judge_group (self, r->state, &group, d, u, NULL, NULL));
+    check_ok (f->judge (self, r->state, d, &(pg_judging){ .group = &group, .utilisation = u }));
     pg_bond_group_clear (&group);
 }
 

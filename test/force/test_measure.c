@@ -37,7 +37,8 @@ static void compare (const pg_force_type *type, void *kept, void *fresh, const p
     for (int k = 0; k < 2; k++) {
         void *self = k ? fresh : kept;
         check_ok (type->balance (self, 1, d, r[k], &reference[k]));
-        check_ok (type->utilisation (self, state, d, u[k], kind, f[k]));
+        check_ok (type->judge (self, state, d,
+                               &(pg_judging){ .utilisation = u[k], .kind = kind, .factor = f[k] }));
     }
     assert_memory_equal (r[0], r[1], state->ndof * sizeof (double));
     assert_memory_equal (u[0], u[1], state->nbond * sizeof (double));

@@ -446,7 +446,7 @@ static void test_breaking (void **unused)
             double *d = random_vector (b.ndof, 17), *f = pg_calloc (b.ndof, sizeof *f),
                    *g = pg_calloc (b.ndof, sizeof *g), *u = pg_calloc (b.state->nbond, sizeof *u), most = 0;
             pg_changes broken = { 0 };
-            check_ok (b.force->utilisation (b.self, b.state, d, u, NULL, NULL));
+            check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u }));
             for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
             for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.7 / most;
             check_ok (b.force->balance_and_break (b.self, 0, d, f, NULL, &broken));

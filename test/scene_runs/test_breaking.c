@@ -29,7 +29,8 @@ static double utilisation_of (const run *r)
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     double *value = pg_calloc (r->state->nbond, sizeof *value), top;
     char *kind = pg_calloc (r->state->nbond, 1);
-    check_ok (force->utilisation (self, r->state, r->state->d, value, kind, NULL));
+    check_ok (force->judge (self, r->state, r->state->d,
+                            &(pg_judging){ .utilisation = value, .kind = kind }));
     top = largest_of (value, r->state->nbond);
     pg_free (value), pg_free (kind);
     return top;

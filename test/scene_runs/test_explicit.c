@@ -182,7 +182,8 @@ static void bonds_that_go_on_the_way_leave_a_balanced_state (void **state)
             char *kind = pg_calloc (r.state->nbond, 1);
             void *self;
             const pg_force_type *force = pg_solver_force (r.solver, &self);
-            check_ok (force->utilisation (self, r.state, r.state->d, utilisation, kind, NULL));
+            check_ok (force->judge (self, r.state, r.state->d,
+                                    &(pg_judging){ .utilisation = utilisation, .kind = kind }));
             for (size_t i = 0; i < r.state->nbond; i++)
                 if (r.state->alive[i]) top = fmax (top, utilisation[i]);
             check_below (top, 1);

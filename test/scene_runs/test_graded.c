@@ -194,7 +194,7 @@ static void a_fracture_energy_follows_the_support (void **state)
     double *u = pg_calloc (p->cloud.n, sizeof *u), *used = pg_calloc (r.state->nbond, sizeof *used);
     for (size_t i = 0; i < p->cloud.n; i++) u[i] = 1e-3 * p->cloud.x[i];
     advance (&r);
-    check_ok (force->utilisation (self, r.state, u, used, NULL, NULL));
+    check_ok (force->judge (self, r.state, u, &(pg_judging){ .utilisation = used }));
     const pg_family *f = &p->rows[PG_NODES].family;
     for (size_t i = 0; i < p->cloud.n; i++) for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
         size_t j = (size_t) f->node[e];

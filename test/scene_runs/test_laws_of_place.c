@@ -72,7 +72,7 @@ static double *shown (run *r, double **u)
             d[i * m + k] = 1e-3 * (x[0] * (k == 0) + 0.5 * sin (9 * x[0] + 5 * x[dim - 1] + 2 * (double) k));
         }
     check_ok (force->refresh (self, r->state, NULL));
-    check_ok (force->utilisation (self, r->state, d, value, NULL, NULL));
+    check_ok (force->judge (self, r->state, d, &(pg_judging){ .utilisation = value }));
     *u = pg_calloc (r->state->ndof, sizeof **u);
     check_ok (force->balance (self, 1, d, *u, &size));
     pg_free (d);
@@ -221,13 +221,14 @@ static void the_worst_bonds_are_found_by_bounds (void **state)
     pg_changes over = { 0 };
     advance (&r);
     check_ok (force->refresh (self, r.state, NULL));
-    check_ok (force->utilisation (self, r.state, r.state->d, u, kind, NULL));
+    check_ok (force->judge (self, r.state, r.state->d, &(pg_judging){ .utilisation = u, .kind = kind }));
     for (size_t b = 0; b < r.state->nbond; b++) most = fmax (most, u[b]);
     for (size_t i = 0; i < r.state->ndof; i++) r.state->d[i] *= 1.3 / most;
-    check_ok (force->utilisation (self, r.state, r.state->d, u, kind, NULL));
+    check_ok (force->judge (self, r.state, r.state->d, &(pg_judging){ .utilisation = u, .kind = kind }));
     most = 0;
     for (size_t b = 0; b < r.state->nbond; b++) most = fmax (most, u[b]);
-    check_ok (force->worst (self, r.state, r.state->d, 1.0, v, kind, &top, &over));
+    check_ok (force->judge (self, r.state, r.state->d,
+                   &(pg_judging){ .utilisation = v, .kind = kind, .over = &over, .from = 1.0, .top = &top }));
     size_t found = 0;
     for (size_t b = 0; b < r.state->nbond; b++) found += u[b] >= 1;
     print_message ("worst %.6g, %zu bonds over their limit\n", top, found);

@@ -39,7 +39,8 @@ static shown show (run *r)
                * (x[0] * (i % dim == 0) + 0.5 * sin (9 * x[0] + 5 * x[dim - 1] + 2 * (double) (i % dim)));
     }
     refresh (r, NULL);
-    check_ok (force->utilisation (self, r->state, d, s.utilisation, s.kind, s.factor));
+    check_ok (force->judge (self, r->state, d,
+                          &(pg_judging){ .utilisation = s.utilisation, .kind = s.kind, .factor = s.factor }));
     pg_free (d);
     return s;
 }

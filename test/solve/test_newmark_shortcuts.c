@@ -59,10 +59,10 @@ static void the_worst_bonds_are_found (const run *r, const looks *l)
     double top = 0, most = 0;
     pg_changes over = { 0 };
     size_t at = 0;
-    assert_non_null (force->worst);
     for (size_t i = 0; i < state->ndof; i++) l->loud[i] = 1.5 * state->d[i];
-    check_ok (force->utilisation (self, state, l->loud, l->all, l->kind, NULL));
-    check_ok (force->worst (self, state, l->loud, 0.9, l->few, l->same, &top, &over));
+    check_ok (force->judge (self, state, l->loud, &(pg_judging){ .utilisation = l->all, .kind = l->kind }));
+    check_ok (force->judge (self, state, l->loud,
+           &(pg_judging){ .utilisation = l->few, .kind = l->same, .over = &over, .from = 0.9, .top = &top }));
     for (size_t i = 0; i < state->nbond; i++) most = fmax (most, l->all[i]);
     assert_true (most == top);
     for (size_t i = 0; i < state->nbond && top > 1; i++) {

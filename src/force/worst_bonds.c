@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The worst bonds by the utilisation of all of them. Ranks judge the bonds that they own, and agree on the
+ * largest. */
+#include "perigal/force.h"
+#include "perigal/ranks.h"
+#include <math.h>
+
+pg_status pg_worst_bonds (const pg_problem *p, const pg_state *state, const double *utilisation, double from,
+                          double *top, pg_changes *over)
+{
+    pg_status status = PG_OK;
+    double most = 0;
+    over->n = 0;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_family *f = &p->rows[set].family;
+        size_t base = p->first_bond[set];
+        for (size_t k = 0; k < f->n; k++)
+            for (size_t i = base + f->start[k]; i < base + f->start[k + 1]; i++) {
+                if (!(utilisation[i] > 0) || !pg_problem_owns (p, set, k)) continue;
+                most = fmax (most, utilisation[i]);
+                if (!state->alive[i] || !(utilisation[i] >= from)) continue;
+                PG_GROW (over->bond, over->cap, over->n + 1);
+                over->bond[over->n++] = i;
+            }
+    }
+    if (p->cloud.subdomain) PG_TRY (pg_ranks_most (1, &most));
+    *top = most;
+    if (!(*top > 1)) over->n = 0;
+done:
+    return status;
+}
