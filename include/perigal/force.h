@@ -66,21 +66,21 @@ typedef struct {
 void pg_bond_group_clear (pg_bond_group *group);
 /* What is asked of bonds. Arrays that are NULL are not wanted. */
 typedef struct {
-    /* Of all bonds (nbond numbers each), or of those of `group` in its order (n each; the displacement is read
-     * at the nodes of the group alone): utilisation; what a bond would break of, 't' tension, 's' shear, 'b'
-     * bending ...; the load factor of its limit, the displacement being that of factor 1. Broken bonds, and
-     * those that never break: 0, INFINITY. */
+    /* Of all bonds (nbond numbers each), or of those of `group` in its order (n each; the displacement is
+     * read at the nodes of the group alone): utilisation; what a bond would break of, 't' tension, 's'
+     * shear, 'b' bending ...; the load factor of its limit, the displacement being that of factor 1.
+     * Broken bonds, and those that never break: 0, INFINITY. */
     const pg_bond_group *group;
     double *utilisation, *factor;
     char   *kind;
-    /* over: the worst bonds alone. *top is the largest utilisation of an intact bond, of all ranks; where it is
-     * above 1, `over` gets the bonds of this rank from utilisation `from` on, ascending (freed by the caller):
-     * utilisation and kind have a meaning at their places alone. */
+    /* over: the worst bonds alone. *top is the largest utilisation of an intact bond, of all ranks; where
+     * it is above 1, `over` gets the bonds of this rank from utilisation `from` on, ascending (freed by
+     * the caller): utilisation and kind have a meaning at their places alone. */
     pg_changes *over;
     double from, *top;
-    /* count > 0: so many displacements, d[unknown * count + k]. top[k] is the largest utilisation of an intact
-     * bond that is not marked in left_out (nbond bytes); of_unit: one over the least load factor instead.
-     * Sums may run in another order than for one displacement. */
+    /* count > 0: so many displacements, d[unknown * count + k]. top[k] is the largest utilisation of an
+     * intact bond that is not marked in left_out (nbond bytes); of_unit: one over the least load factor
+     * instead. Sums may run in another order than for one displacement. */
     size_t count;
     const unsigned char *left_out;
     int of_unit;
@@ -215,8 +215,8 @@ typedef struct {
      * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
     pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
     /* Fills in what belongs to group->bond, whatever the group held before, so that it can be judged by
-     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: `judge` knows all
-     * bonds alone, at one displacement. */
+     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: `judge` knows
+     * all bonds alone, at one displacement. */
     pg_status (*gather) (void *self, pg_bond_group *group, int *can);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.

@@ -106,7 +106,8 @@ pg_status bond_force_mass (void *self, double *mass);
 const pg_operator *bond_force_operator (void *self);
 const pg_sparse *bond_force_basis (void *self);
 pg_status bond_force_impose (void *self, double t, double *d);
-pg_status bond_force_work (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out);
+pg_status bond_force_work (void *self, double t, const double *d, const pg_known *known,
+                           pg_work_balance *out);
 unsigned long bond_force_revision (const void *self);
 pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
                                         double *reference,

@@ -275,9 +275,9 @@ static const pg_operator *galerkin_operator (void *self) { return &((galerkin *)
 /* How many unknowns elimination takes out. */
 static size_t slaves_of (const galerkin *g) { return g->side[0].n + g->side[1].n + g->side[2].n; }
 
-/* In equilibrium half the work of all pairs is what is stored, and facets are measured alone (nodes too, where
- * something acts there). Not where reactions of eliminated unknowns need forces of the whole body, or a body
- * force its displacements. */
+/* In equilibrium half the work of all pairs is what is stored, and facets are measured alone (nodes too,
+ * where something acts there). Not where reactions of eliminated unknowns need forces of the whole body,
+ * or a body force its displacements. */
 static int boundary_tells (const galerkin *g, const pg_work_balance *out, int *nodes)
 {
     int points = slaves_of (g) > 0;

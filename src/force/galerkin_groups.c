@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Groups of bonds, and all others. A group is looked at after every event (judge_group in galerkin_bonds.c); all other bonds are looked at for many displacements at once, as a proof afterwards that
- * none of them would have broken in between. Of a point, displacement or stresses are made for all these
- * displacements in one pass over its shape functions, so that these are read once instead of once an event;
- * where the criterion is a linear form of what a bond shows (pg_criterion_type.linear, .planes), a bond is a
- * few products for each of them. */
+ * Groups of bonds, and all others. A group is looked at after every event (judge_group in
+ * galerkin_bonds.c); all other bonds are looked at for many displacements at once, as a proof afterwards
+ * that none of them would have broken in between. Of a point, displacement or stresses are made for all
+ * these displacements in one pass over its shape functions, so that these are read once instead of once an
+ * event; where the criterion is a linear form of what a bond shows (pg_criterion_type.linear, .planes), a
+ * bond is a few products for each of them. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdlib.h>

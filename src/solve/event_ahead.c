@@ -51,7 +51,8 @@ static int possible (const pg_solver *s)
     const break_loop *b = &s->break_loop;
     const pg_force_type *f = b->system.force;
     return !s->problem->plain && e->engine && !e->base && !b->growth && break_loop_judges (b)
-           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather && event_solver_has_base (e->engine);
+           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather
+           && event_solver_has_base (e->engine);
 }
 
 int ahead_waits (const event_ahead *q) { return q && q->at < q->nevent; }

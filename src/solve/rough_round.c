@@ -50,8 +50,9 @@ static pg_status judge_both (break_loop *b, const pg_state *state, const double 
     pg_bond_group group = { .n = 0 };
     double t0 = pg_seconds ();
     PG_TRY (break_loop_ready (b));
-    PG_TRY (s->force->judge (s->self, state, d,
-        &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind, .over = &b->over, .from = near, .top = top }));
+    pg_judging worst = { .utilisation = b->utilisation, .kind = b->kind, .over = &b->over, .from = near,
+                         .top = top };
+    PG_TRY (s->force->judge (s->self, state, d, &worst));
     if (!(*top > 1)) goto done;
     PG_ALLOC (group.bond, b->over.n);
     memcpy (group.bond, b->over.bond, b->over.n * sizeof *group.bond);

@@ -93,7 +93,8 @@ static pg_status chain_impose (void *self, double t, double *d)
     if (the.lead) d[0] = ((chain *) self)->lead (t);
     return PG_OK;
 }
-static pg_status chain_work (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out)
+static pg_status chain_work (void *self, double t, const double *d, const pg_known *known,
+                             pg_work_balance *out)
 {
     pg_status status = PG_OK;
     const chain *c = self;
