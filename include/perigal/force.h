@@ -109,6 +109,15 @@ typedef struct {
     const size_t *broken, *place;
 } pg_face_pieces;
 
+/* What is left of a body whose bonds break. */
+typedef struct {
+    /* Points of evaluation without a gradient, which carry no stress; nodes alone; parts beside the largest
+     * one. */
+    size_t degenerate, isolated, fragments;
+    double at[3];  /* the first of those points, m; left as it was where there is none */
+    size_t unended;  /* background cells near cracks, but not near tips, that cannot end at the cracks */
+} pg_census;
+
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
  * may be NULL. */
 typedef struct {
@@ -135,20 +144,16 @@ typedef struct {
      * (Pa), "damage", "error_estimate" (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field) (void *self, const pg_state *state, const double *d, const char *name, int *components,
                         const char **unit, double *value);
-    /* The largest overlap of broken bonds (m). */
+    /* The largest overlap of the faces of broken bonds, m. */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
-    /* Points of evaluation without a gradient, nodes alone, parts beside the largest one; where the first of
-     * those points is, m (at: 3, left alone where there is none). */
-    pg_status (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at);
+    /* What the bonds of the last refresh leave of the body. */
+    pg_status (*census)  (void *self, pg_census *out);
     /* Joins the points that carry forces to each other at the last refresh: sets of points (pg_disjoint, n;
      * of a rank by what its own points take part in). NULL: not known. */
     void      (*join)    (void *self, int *parent);
-    /* As `external`, whether or not explicit methods are to use it. NULL: balance at d = 0 tells, and
+    /* Loads at t as nodal forces, N (ndof); supports are not among them. NULL: balance at d = 0 tells, and
      * supports with it. */
     pg_status (*loads)   (void *self, double t, double *P);
-    /* Number of background cells near cracks, but not near tips, that cannot end at the cracks. NULL: none
-     * do. */
-    size_t    (*unended) (const void *self);
     /* Gives the values of shape functions that it has evaluated on the bare problem, at a state without
      * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
      * is good for nothing but `free` from then on. NULL: it has none to give. */
@@ -181,8 +186,6 @@ typedef struct {
      * does not refresh. reference may be NULL. NULL entry: utilisation, refresh, balance do. */
     pg_status (*balance_and_break) (void *self, double t, const double *d, double *residual,
                                     double *reference, pg_changes *broken);
-    /* Loads at t as nodal forces, N (ndof); supports are not among them. NULL: balance at d = 0 tells. */
-    pg_status (*external) (void *self, double t, double *P);
     /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact
      * bonds. NULL: from row_sums. */
     pg_status (*bound)   (void *self, double *omega);

@@ -210,7 +210,7 @@ done:
 }
 
 /* Loads alone, without supports. */
-pg_status bond_force_external (void *self, double t, double *P)
+pg_status bond_force_loads (void *self, double t, double *P)
 {
     bond_force *b = self;
     memset (P, 0, ndof (b) * sizeof *P);

@@ -112,7 +112,7 @@ unsigned long bond_force_revision (const void *self);
 pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
                                         double *reference,
                       pg_changes *broken);
-pg_status bond_force_external (void *self, double t, double *P);
+pg_status bond_force_loads (void *self, double t, double *P);
 pg_status bond_force_surface (void *self, const double *stress, double *P);
 /* matrix */
 void bond_force_apply    (void *context, const double *x, double *y);
@@ -134,10 +134,9 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
                       const char **unit, double *value);
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                              double *u, double *stress, double *gradient);
-double    bond_force_overlap (void *self, const pg_state *state, const double *d);
 void      bond_force_join   (void *self, int *parent);
-pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments,
-                             double *at);
+double    bond_force_overlap (void *self, const pg_state *state, const double *d);
+pg_status bond_force_census (void *self, pg_census *out);
 /* contact of crack faces by the bonds that crossed them (bond_faces.c) */
 pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                            double radius, pg_jump_rows *out);
@@ -168,9 +167,9 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .basis = bond_force_basis, .impose = bond_force_impose, .judge = bond_force_judge, \
     .work = bond_force_work, \
     .field = bond_force_field, .overlap = bond_force_overlap, \
-    .census = bond_force_census, .join = bond_force_join, .loads = bond_force_external, \
+    .census = bond_force_census, .join = bond_force_join, .loads = bond_force_loads, \
     .revision = bond_force_revision, .sample = bond_force_sample, \
-    .balance_and_break = bond_force_balance_and_break, .external = bond_force_external, \
+    .balance_and_break = bond_force_balance_and_break, \
     .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
     .couplings = bond_force_couplings, .surface = bond_force_surface, \

@@ -451,19 +451,18 @@ void bond_force_join (void *self, int *parent)
 
 /* Parts of the body that live bonds hold together: points alone, and parts of
  * several points beside the largest one. */
-pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at)
+pg_status bond_force_census (void *self, pg_census *out)
 {
-    (void) at;
     pg_status status = PG_OK;
     bond_force *b = self;
     int *parent = NULL;
     double parts[2];
-    *degenerate = *isolated = *fragments = 0;
+    out->degenerate = out->unended = 0;
     PG_ALLOC (parent, b->n);
     bond_force_join (b, parent);
     PG_TRY (pg_subdomain_count (b->problem->cloud.subdomain, b->n, parent, parts));
-    *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
-    if (*fragments) --*fragments;                      /* the body itself is none */
+    out->isolated = (size_t) parts[0], out->fragments = (size_t) parts[1];
+    if (out->fragments) --out->fragments;              /* the body itself is none */
 done:
     pg_free (parent);
     return status;

@@ -443,7 +443,6 @@ const pg_force_type pg_force_galerkin = {
     .from_nodes = galerkin_from_nodes,
     .overlap = galerkin_overlap,
     .census = galerkin_census, .join = galerkin_join, .loads = galerkin_loads_of,
-    .unended = galerkin_unended,
     .revision = galerkin_revision,
     .assemble = galerkin_assemble,
     .forget_matrix = galerkin_forget_matrix,

@@ -283,7 +283,7 @@ void galerkin_ended_free (galerkin *g);
 /* How each cell near the cracks of the state is treated, and the values on their borders. *moved: the cracks
  * are others than at the last call. */
 pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved);
-size_t galerkin_unended (const void *self);            /* pg_force_type.unended */
+size_t galerkin_unended (const galerkin *g);           /* pg_census.unended */
 size_t galerkin_ended_near (const galerkin *g, size_t *cell); /* cells near cracks (NULL: their number) */
 const pg_rows *galerkin_ended_faces (const galerkin *g);  /* values and grades at the faces of cells */
 void galerkin_ended_mark (galerkin *g);                       /* whole: of the cells that end at cracks */
@@ -431,7 +431,7 @@ pg_status galerkin_gather (void *self, pg_bond_group *group, int *can);
 pg_status galerkin_judge_others (galerkin *g, const pg_state *state, const unsigned char *left_out,
                                  int of_unit, size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
-pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at);
+pg_status galerkin_census (void *self, pg_census *out);
 void galerkin_join (void *self, int *parent);
 /* The force's refresh, for who asks before the first one. */
 pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes);

@@ -371,19 +371,19 @@ done:
 
 /* Points of evaluation without a gradient; nodes that no evaluation point sees together with another one;
  * parts of the body that evaluation points no longer join, the largest not counted. */
-pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at)
+pg_status galerkin_census (void *self, pg_census *out)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
     int *parent = NULL;
     double parts[2];
-    *degenerate = *isolated = *fragments = 0;
     PG_ALLOC (parent, g->n);
-    PG_TRY (count_flat (g, degenerate, at));
+    PG_TRY (count_flat (g, &out->degenerate, out->at));
     galerkin_join (g, parent);
     PG_TRY (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts));
-    *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
-    if (*fragments) --*fragments;                      /* the body itself is none */
+    out->isolated = (size_t) parts[0], out->fragments = (size_t) parts[1];
+    out->unended = galerkin_unended (g);
+    if (out->fragments) --out->fragments;              /* the body itself is none */
 done:
     pg_free (parent);
     return status;

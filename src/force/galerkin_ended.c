@@ -301,9 +301,8 @@ void galerkin_ended_mark (galerkin *g)
         if (!e->near[k].failed) g->whole[e->near[k].cell] = e->near[k].kind == ENDED_PLAIN;
 }
 
-size_t galerkin_unended (const void *self)
+size_t galerkin_unended (const galerkin *g)
 {
-    const galerkin *g = self;
     return g->ended ? g->ended->blocked : 0;
 }
 

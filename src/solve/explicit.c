@@ -70,8 +70,10 @@ pg_status explicit_create (pg_solver *s)
     m->before = m->lists, m->goal = m->before + m->nprescribed, m->next = m->goal + m->nprescribed;
     PG_ALLOC (m->push, 3 * m->nprescribed);
     m->push0 = m->push + m->nprescribed, m->left = m->push0 + m->nprescribed;
-    if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
-    m->by_work_balance = !force->external && force->work
+    /* supports of shape functions do work elsewhere than at the unknowns that they prescribe */
+    int by_unknowns = force->loads && !force->method.shape_functions;
+    if (by_unknowns && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
+    m->by_work_balance = !by_unknowns && force->work
                          && (has_forces (s->problem) || has_springs (s->problem));
     m->nblock = (sys->ndof + BLOCK - 1) / BLOCK;
     PG_ALLOC (m->sum, m->nblock * SUMS);
@@ -129,7 +131,7 @@ pg_status explicit_follow (pg_solver *s, double before, double now, double next)
         PG_TRY (gather (s, now, m->goal));
     }
     PG_TRY (gather (s, next, m->next));
-    if (m->P) PG_TRY (sys->force->external (sys->self, now, m->P));
+    if (m->P) PG_TRY (sys->force->loads (sys->self, now, m->P));
     m->fresh = 1;
 done:
     return status;

@@ -40,7 +40,7 @@ static pg_status limit_stages (pg_solver *s)
     if (!m->P || !relaxation_breaks (s)) goto done;
     double s0 = smallest_stretch (s->problem);
     if (!isfinite (s0)) goto done;
-    PG_TRY (s->break_loop.system.force->external (s->break_loop.system.self, 1, m->P));
+    PG_TRY (s->break_loop.system.force->loads (s->break_loop.system.self, 1, m->P));
     for (size_t i = 0; i < s->break_loop.system.ndof; i++)
         if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
     PG_TRY (pg_ranks_most (1, &most));

@@ -563,8 +563,11 @@ static pg_status count_defects (probe *t)
     const pg_rows *bulk = &t->p->rows[t->p->integration->at_nodes ? PG_NODES : PG_POINTS];
     t->out.points = bulk->n;
     if (!t->force->census) return PG_OK;
-    return t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments,
-                             t->out.blind);
+    pg_census left = { .at = { t->out.blind[0], t->out.blind[1], t->out.blind[2] } };
+    pg_status status = t->force->census (t->self, &left);
+    t->out.degenerate = left.degenerate, t->out.isolated = left.isolated, t->out.fragments = left.fragments;
+    memcpy (t->out.blind, left.at, sizeof left.at);
+    return status;
 }
 
 /* Measures the error under each stress; with supports on points that bear on facets a second time with

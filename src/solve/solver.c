@@ -127,8 +127,12 @@ static pg_status count_points (pg_solver *s)
     pg_system *sys = &s->break_loop.system;
     pg_statistics *r = &s->report;
     if (!sys->force->census) return PG_OK;
-    return sys->force->census (sys->self, &r->degenerate_points, &r->isolated_nodes, &r->fragments,
-                               r->degenerate_at);
+    pg_census left = { .at = { r->degenerate_at[0], r->degenerate_at[1], r->degenerate_at[2] } };
+    pg_status status = sys->force->census (sys->self, &left);
+    r->degenerate_points = left.degenerate, r->isolated_nodes = left.isolated, r->fragments = left.fragments;
+    r->unended_cells = left.unended;
+    memcpy (r->degenerate_at, left.at, sizeof left.at);
+    return status;
 }
 
 /* Once: points that see too little beside cracks, more than the bare body has, which its patch test tells. */
@@ -493,7 +497,6 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
     if (s->break_loop.growth) tell_blind (s), tell_alone (s);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
     if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
-    if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);
     report_skips (s);
     report_sums (s);
     warn_at_end (s, state);

@@ -194,9 +194,9 @@ static void test_cut (void **unused)
             assert_true (K->value[q] == 0);
         }
     assert_true (across > 0);
-    size_t degenerate, isolated, fragments;
-    check_ok (b.force->census (b.self, &degenerate, &isolated, &fragments, (double[3]) { 0 }));
-    assert_int_equal (isolated, 0), assert_int_equal (fragments, 1);
+    pg_census left = { 0 };
+    check_ok (b.force->census (b.self, &left));
+    assert_int_equal (left.isolated, 0), assert_int_equal (left.fragments, 1);
     double *damage = pg_calloc (6 * b.n, sizeof *damage);
     int components;
     const char *unit;

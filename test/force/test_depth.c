@@ -16,7 +16,7 @@ static double *loads (run *r)
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     double *P = pg_calloc (r->state->ndof, sizeof *P);
-    check_ok (force->external (self, 1, P));
+    check_ok (force->loads (self, 1, P));
     return P;
 }
 

@@ -140,7 +140,7 @@ static const pg_force_type chain_type = { .method = { .name = "chain" },
                                           .basis = chain_basis,
                                           .impose = chain_impose,
                                           .work = chain_work,
-                                          .external = chain_external,
+                                          .loads = chain_external,
                                           .row_sums = chain_row_sums };
 
 /* ---- a problem around it ------------------------------------------------------------------------------- */
