@@ -208,9 +208,6 @@ typedef struct {
     /* What shortcuts of the force have spared so far, one at a time: what (96), why (160), seconds; returns 0
      * past the last. NULL: none. */
     int       (*spared)  (const void *self, size_t k, char *what, char *why, double *seconds);
-    /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
-     * criteria of energies. */
-    char      (*kind_of) (void *self, const double *d, size_t bond);
     /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
      * NULL: balance does. */
     pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);
@@ -218,8 +215,8 @@ typedef struct {
      * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
     pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
     /* Fills in what belongs to group->bond, whatever the group held before, so that it can be judged by
-     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: `judge` knows
-     * all bonds alone, at one displacement. */
+     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: of a
+     * group `judge` tells the kinds alone, for which n and bond of it suffice. */
     pg_status (*gather) (void *self, pg_bond_group *group, int *can);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.

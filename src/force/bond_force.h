@@ -45,6 +45,8 @@ typedef struct {
     /* Shear and bending of a bond between unknowns di, dj. NULL: it has neither. */
     void      (*strain) (const bond_force *b, const double *xi, const double *di, const double *dj,
                          double *shear, double *bending);
+    /* What a bond breaks of at d. NULL: tension, or energy with criteria of energies. */
+    char      (*kind_of) (const bond_force *b, const double *d, size_t entry);
     /* The constants of a material in one line. */
     void      (*words)  (const bond_force *b, size_t material, char *text, size_t size);
 } bond_theory;

@@ -116,6 +116,14 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     judge (s, &all);
 }
 
+/* What the bonds of a group break of. */
+static void tell_kinds (const bond_force *b, const double *d, const pg_bond_group *group, char *kind)
+{
+    char usual = b->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
+    for (size_t k = 0; kind && k < group->n; k++)
+        kind[k] = b->theory->kind_of ? b->theory->kind_of (b, d, group->bond[k]) : usual;
+}
+
 /* Of every bond; criteria of energies are asked for points instead. */
 pg_status bond_force_judge (void *self, const pg_state *state, const double *d, const pg_judging *w)
 {
@@ -124,7 +132,8 @@ pg_status bond_force_judge (void *self, const pg_state *state, const double *d, 
     judging s = { b, state, d, w->utilisation, w->factor, w->kind };
     if (!b->problem->criterion->type)
         PG_FAIL (PG_E_USAGE, "there is no failure criterion, and so no utilisation");
-    if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
+    if (w->group) tell_kinds (b, d, w->group, w->kind);
+    else if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
         PG_TRY (bond_force_energy_utilisation (b, state, d, w->utilisation, w->kind, w->factor));
     else pg_parallel (b->threads, b->n, judge_points, &s);
     if (w->over) PG_TRY (pg_worst_bonds (b->problem, state, w->utilisation, w->from, w->top, w->over));

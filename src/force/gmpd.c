@@ -222,6 +222,5 @@ const pg_force_type pg_force_gmpd = {
                 .ghosts = 2,
                 BOND_FORCE_METHOD },
     .create = micropolar_create,
-    .kind_of = micropolar_kind_of,
     BOND_FORCE_ENTRIES
 };

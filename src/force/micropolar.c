@@ -164,9 +164,8 @@ static void virial (const bond_force *b, size_t i, const point_bonds *s, const u
 }
 
 /* By the law of the end that is nearer to its limit */
-char micropolar_kind_of (void *self, const double *d, size_t entry)
+char micropolar_kind_of (const bond_force *b, const double *d, size_t entry)
 {
-    const bond_force *b = self;
     const pg_problem *p = b->problem;
     size_t i, j = (size_t) b->family->node[entry], dim = (size_t) b->dim, m = (size_t) b->stride;
     double xi[3], eta[3], shear, bending, most = -1;
@@ -230,6 +229,7 @@ static const bond_theory theory = { .size = sizeof (micropolar),
                                      .alike = alike,
                                      .virial = virial,
                                      .strain = strain,
+                                     .kind_of = micropolar_kind_of,
                                      .find_dying = dilatation_dying,
                                      .words = words };
 

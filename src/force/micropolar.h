@@ -27,5 +27,5 @@ typedef struct {
 static inline const micropolar *micropolar_of (const bond_force *b) { return (const micropolar *) b; }
 
 pg_status micropolar_create (void **self, const pg_problem *problem);
-char      micropolar_kind_of (void *self, const double *d, size_t entry);      /* pg_force_type.kind_of */
+char      micropolar_kind_of (const bond_force *b, const double *d, size_t entry);   /* bond_theory.kind_of */
 #endif

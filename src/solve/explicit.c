@@ -138,23 +138,27 @@ done:
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
-/* Bonds that died within the evaluation of the force: state and log follow. The kind is that of an
- * energy, of tension, or what the force says. Those of ghosts are counted where they are owned. */
+/* Bonds that died within the evaluation of the force: state and log follow. Those of ghosts are counted where
+ * they are owned. */
 static pg_status remove_broken (pg_solver *s, pg_state *state, double t, size_t *own)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    *own = 0;
     const pg_force_type *force = b->system.force;
-    char kind = s->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
-    for (size_t k = 0; k < b->changes.n; k++) {
-        state->alive[b->changes.bond[k]] = 0;
-        if (!break_loop_owns (b, b->changes.bond[k])) continue;
+    const pg_bond_group dead = { .n = b->changes.n, .bond = b->changes.bond };
+    char *kind = NULL;
+    *own = 0;
+    if (dead.n == 0) return PG_OK;
+    PG_ALLOC (kind, dead.n);
+    PG_TRY (force->judge (b->system.self, state, state->d, &(pg_judging){ .group = &dead, .kind = kind }));
+    for (size_t k = 0; k < dead.n; k++) {
+        state->alive[dead.bond[k]] = 0;
+        if (!break_loop_owns (b, dead.bond[k])) continue;
         state->broken++, ++*own;
-        if (force->kind_of) kind = force->kind_of (b->system.self, state->d, b->changes.bond[k]);
-        PG_TRY (break_loop_log (b, b->changes.bond[k], kind, NAN, t));
+        PG_TRY (break_loop_log (b, dead.bond[k], kind[k], NAN, t));
     }
 done:
+    pg_free (kind);
     return status;
 }
 

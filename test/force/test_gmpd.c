@@ -325,8 +325,11 @@ static void test_breaking_graded (void **unused)
         check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
         assert_true (broken.n > 20 && broken.n < b.state->nbond - 20);
         size_t at = 0;
-        for (size_t n = 0; b.force->kind_of && n < broken.n; n++)
-            assert_int_equal (b.force->kind_of (b.self, d, broken.bond[n]), kind[broken.bond[n]]);
+        const pg_bond_group group = { .n = broken.n, .bond = broken.bond };
+        char *of_dead = pg_calloc (broken.n + 1, 1);
+        check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .group = &group, .kind = of_dead }));
+        for (size_t n = 0; n < broken.n; n++) assert_int_equal (of_dead[n], kind[broken.bond[n]]);
+        pg_free (of_dead);
         for (size_t e = 0; e < b.state->nbond; e++) {
             int dead = at < broken.n && broken.bond[at] == e;
             if (dead != (u[e] >= 1) && fabs (u[e] - 1) > 1e-12)
