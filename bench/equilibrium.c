@@ -210,7 +210,7 @@ static pg_status by_gradients (job *j, int multilevel)
     for (int k = 0; k < REPEATS; k++) {
         pg_multilevel_free (&m);
         double t0 = spread_processor ();
-        if (multilevel) PG_TRY (j->force->couplings (j->self, &s.rows));
+        if (multilevel) PG_TRY (j->force->spares.couplings (j->self, &s.rows));
         if (multilevel) PG_TRY (pg_multilevel_create (&m, &s));
         double t1 = spread_processor (), w1 = pg_seconds ();
         pg_preconditioner P = { 0 };

@@ -93,10 +93,10 @@ pg_status pg_worst_bonds (const pg_problem *problem, const pg_state *state, cons
  * to before start[q + 1]. */
 typedef struct {
     size_t  n, *start;  int *node;  double *value;
-    size_t  poor;                                      /* places whose values are zero: see pg_force_type */
+    size_t  poor;  /* places whose values are zero: see pg_force_surfaces */
 } pg_jump_rows;
 void pg_jump_rows_clear (pg_jump_rows *rows);
-#define PG_CONTACT_STIFFEST 2.0                        /* see pg_force_type.faces */
+#define PG_CONTACT_STIFFEST 2.0                        /* see pg_force_surfaces.faces */
 /* Faces of cracks that may touch, in pieces that are sampled at places. Borrowed. */
 typedef struct {
     size_t n, dim, npoint;                             /* pieces; places of all of them */
@@ -118,6 +118,84 @@ typedef struct {
     size_t unended;  /* background cells near cracks, but not near tips, that cannot end at the cracks */
 } pg_census;
 
+/* Entries for motion. */
+typedef struct {
+    /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every
+     * component. It is that of the bonds alive when it is first asked for, and stays: breaking moves no mass.
+     * NULL: lumped mass only. */
+    pg_status (*mass_matrix) (void *self, const pg_sparse **M);
+    /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the
+     * caches from now on; they are appended to `broken`, ascending; the caller clears their alive bits and
+     * does not refresh. reference may be NULL. NULL entry: utilisation, refresh, balance do. */
+    pg_status (*balance_and_break) (void *self, double t, const double *d, double *residual,
+                                    double *reference, pg_changes *broken);
+    /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact
+     * bonds. NULL: from row_sums. */
+    pg_status (*bound)   (void *self, double *omega);
+    /* sum_j |K_ij| of every dof, N/m (Gershgorin; adaptive dynamic relaxation). NULL: from the matrix. */
+    pg_status (*row_sums) (void *self, double *sum);
+} pg_force_motion;
+/* Entries for surfaces that touch or are loaded: of the body, and faces of cracks. */
+typedef struct {
+    /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
+     * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
+     * NULL: not known. */
+    pg_status (*surface) (void *self, const double *stress, double *P);
+    /* Displacement on the side that the normal shows to, less that on the other, at n places on cracks of the
+     * state (x, normal: n x dim), by shape functions that see so many spacings far. Places one side of which
+     * sees too little for a linear field have none: their values are zero. NULL: contact of crack faces
+     * cannot be asked of this force. */
+    pg_status (*jump) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                       double radius, pg_jump_rows *out);
+    /* Displacement at n places on the surface of the body (x, outward unit normal: n x dim), by the shape
+     * functions that carry a traction there, the body being seen from inside. NULL: platens cannot be asked
+     * of this force. */
+    pg_status (*trace) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                        pg_jump_rows *out);
+    /* Instead of jump, of forces whose bonds are what joins the two sides: columns of G' for each piece (ndof
+     * x dim n: its mean opening, then its slips), compliance of the layer between the faces, m/N (dim n), and
+     * how much stiffer than the bonds that crossed them its springs may be (*stiffer >= 1), at the last
+     * refresh. Layers of bonds that broke one by one are made no stiffer than PG_CONTACT_STIFFEST times.
+     * NULL: jump, if there is one. */
+    pg_status (*faces) (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
+                        double *soft, double *stiffer);
+    /* Of forces whose unknowns are no displacements of points (both entries; NULL: they are): u = N x, what
+     * unknowns make of the displacement, or velocity, at the nodes by the shape functions of the last
+     * refresh, and f += N' F, unknowns taking forces F on the nodes, N. All n x dim. */
+    void      (*at_nodes)   (void *self, const double *x, double *u);
+    void      (*from_nodes) (void *self, const double *F, double *f);
+} pg_force_surfaces;
+/* Entries that spare work and change no answer. */
+typedef struct {
+    /* Gives the values of shape functions that it has evaluated on the bare problem, at a state without
+     * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
+     * is good for nothing but `free` from then on. NULL: it has none to give. */
+    pg_status (*lend) (void *self, const pg_state *state, pg_problem *problem);
+    /* Frees the matrix; the next assemble makes it anew. NULL: it stays. */
+    void      (*forget_matrix) (void *self);
+    /* What shortcuts of the force have spared so far, one at a time: what (96), why (160), seconds; returns 0
+     * past the last. NULL: none. */
+    int       (*spared)  (const void *self, size_t k, char *what, char *why, double *seconds);
+    /* What the evaluation points of these bonds have of K x, N (ndof), before a refresh by these changes or
+     * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
+    pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
+    /* What refreshes have changed of K since the last call; the first call begins the record and knows
+     * nothing. NULL: never known. */
+    pg_status (*change) (void *self, pg_stiffness_change *out);
+    /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be
+     * had. */
+    pg_status (*couplings) (void *self, pg_couplings *out);
+    /* Finite elements on the points, whose energies are about those of K at the last refresh, for
+     * preconditioners of the operator. NULL: none can be had. */
+    pg_status (*elements) (void *self, pg_elements *out);
+    /* Fills in what belongs to group->bond, whatever the group held before, so that it can be judged by
+     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: of a
+     * group `judge` tells the kinds alone, for which n and bond of it suffice. */
+    pg_status (*gather) (void *self, pg_bond_group *group, int *can);
+    /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
+     * NULL: balance does. */
+    pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);
+} pg_force_spares;
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
  * may be NULL. */
 typedef struct {
@@ -154,22 +232,12 @@ typedef struct {
     /* Loads at t as nodal forces, N (ndof); supports are not among them. NULL: balance at d = 0 tells, and
      * supports with it. */
     pg_status (*loads)   (void *self, double t, double *P);
-    /* Gives the values of shape functions that it has evaluated on the bare problem, at a state without
-     * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
-     * is good for nothing but `free` from then on. NULL: it has none to give. */
-    pg_status (*lend) (void *self, const pg_state *state, pg_problem *problem);
     /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every
      * refresh changes them). */
     unsigned long (*revision) (const void *self);
     /* Brings the matrix in line with the last refresh; before it, or after another refresh, matrix is not
      * asked for. NULL: refresh does it. */
     pg_status (*assemble) (void *self);
-    /* Frees the matrix; the next assemble makes it anew. NULL: it stays. */
-    void      (*forget_matrix) (void *self);
-    /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every
-     * component. It is that of the bonds alive when it is first asked for, and stays: breaking moves no mass.
-     * NULL: lumped mass only. */
-    pg_status (*mass_matrix) (void *self, const pg_sparse **M);
     /* Displacement (m), stress (Pa) and displacement gradient (the last two NULL: not wanted) at any n places
      * by the force's own shape functions, the bonds being those of the last refresh: places on the two sides
      * of a crack keep their own values. x: n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy
@@ -181,16 +249,6 @@ typedef struct {
     /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa
      * (n). */
     pg_status (*estimate) (void *self, const double *d, pg_estimate *out, double *value);
-    /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the
-     * caches from now on; they are appended to `broken`, ascending; the caller clears their alive bits and
-     * does not refresh. reference may be NULL. NULL entry: utilisation, refresh, balance do. */
-    pg_status (*balance_and_break) (void *self, double t, const double *d, double *residual,
-                                    double *reference, pg_changes *broken);
-    /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact
-     * bonds. NULL: from row_sums. */
-    pg_status (*bound)   (void *self, double *omega);
-    /* sum_j |K_ij| of every dof, N/m (Gershgorin; adaptive dynamic relaxation). NULL: from the matrix. */
-    pg_status (*row_sums) (void *self, double *sum);
     /* Constants and choices in words, one line each, for plans and reports; returns 0 past the last line.
      * NULL: nothing to say. */
     int       (*describe) (const void *self, size_t line, char *text, size_t size);
@@ -199,55 +257,9 @@ typedef struct {
     /* NULL, or why this force does not go with solvers of these flags (PG_SOLVER_...): a sentence for the
      * user that ends in what to do, static text. NULL entry: goes with all. */
     const char *(*refuses) (const pg_problem *problem, unsigned solver);
-    /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be
-     * had. */
-    pg_status (*couplings) (void *self, pg_couplings *out);
-    /* Finite elements on the points, whose energies are about those of K at the last refresh, for
-     * preconditioners of the operator. NULL: none can be had. */
-    pg_status (*elements) (void *self, pg_elements *out);
-    /* What shortcuts of the force have spared so far, one at a time: what (96), why (160), seconds; returns 0
-     * past the last. NULL: none. */
-    int       (*spared)  (const void *self, size_t k, char *what, char *why, double *seconds);
-    /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
-     * NULL: balance does. */
-    pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);
-    /* What the evaluation points of these bonds have of K x, N (ndof), before a refresh by these changes or
-     * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
-    pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
-    /* Fills in what belongs to group->bond, whatever the group held before, so that it can be judged by
-     * itself; *can 0: not with this problem, as stresses reach further than the bonds. NULL: of a
-     * group `judge` tells the kinds alone, for which n and bond of it suffice. */
-    pg_status (*gather) (void *self, pg_bond_group *group, int *can);
-    /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
-     * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
-     * NULL: not known. */
-    pg_status (*surface) (void *self, const double *stress, double *P);
-    /* What refreshes have changed of K since the last call; the first call begins the record and knows
-     * nothing. NULL: never known. */
-    pg_status (*change) (void *self, pg_stiffness_change *out);
-    /* Displacement on the side that the normal shows to, less that on the other, at n places on cracks of the
-     * state (x, normal: n x dim), by shape functions that see so many spacings far. Places one side of which
-     * sees too little for a linear field have none: their values are zero. NULL: contact of crack faces
-     * cannot be asked of this force. */
-    pg_status (*jump) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
-                       double radius, pg_jump_rows *out);
-    /* Displacement at n places on the surface of the body (x, outward unit normal: n x dim), by the shape
-     * functions that carry a traction there, the body being seen from inside. NULL: platens cannot be asked
-     * of this force. */
-    pg_status (*trace) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
-                        pg_jump_rows *out);
-    /* Instead of jump, of forces whose bonds are what joins the two sides: columns of G' for each piece (ndof
-     * x dim n: its mean opening, then its slips), compliance of the layer between the faces, m/N (dim n), and
-     * how much stiffer than the bonds that crossed them its springs may be (*stiffer >= 1), at the last
-     * refresh. Layers of bonds that broke one by one are made no stiffer than PG_CONTACT_STIFFEST times.
-     * NULL: jump, if there is one. */
-    pg_status (*faces) (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
-                        double *soft, double *stiffer);
-    /* Of forces whose unknowns are no displacements of points (both entries; NULL: they are): u = N x, what
-     * unknowns make of the displacement, or velocity, at the nodes by the shape functions of the last
-     * refresh, and f += N' F, unknowns taking forces F on the nodes, N. All n x dim. */
-    void      (*at_nodes)   (void *self, const double *x, double *u);
-    void      (*from_nodes) (void *self, const double *F, double *f);
+    pg_force_motion   motion;
+    pg_force_surfaces surfaces;
+    pg_force_spares   spares;
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

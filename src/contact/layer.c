@@ -10,5 +10,5 @@ pg_status pg_contact_layer (pg_sparse *out, double *soft, double *stiffer, const
                                    .tangent = pieces->tangent, .weight = pieces->weight,
                                    .nknown = pieces->nknown, .nbroken = pieces->nbroken,
                                    .broken = pieces->broken, .place = pieces->place };
-    return force->faces (self, state, &faces, out, soft, stiffer);
+    return force->surfaces.faces (self, state, &faces, out, soft, stiffer);
 }

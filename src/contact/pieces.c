@@ -474,10 +474,11 @@ pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, cons
     pg_status status = PG_OK;
     pg_jump_rows jump = { 0 };
     memset (out, 0, sizeof *out);
-    if (!force->jump)
+    if (!force->surfaces.jump)
         PG_FAIL (PG_E_USAGE, "contact of crack faces is known of forces that show the jump of the "
                              "displacement across a crack");
-    PG_TRY (force->jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS, &jump));
+    PG_TRY (force->surfaces.jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS,
+                                  &jump));
     *blind = blind_of (pieces, &jump);
     PG_TRY (pg_contact_rows_of (out, pieces, p, &jump));
 done:
@@ -496,7 +497,7 @@ pg_status pg_contact_overlap (double *overlap, const pg_contact_pieces *k, const
     if (!k->npoint) return PG_OK;
     size_t fields = force->fields (self, 4, field);
     for (size_t i = 0; i < fields; i++) unknowns += (size_t) field[i].components;
-    PG_TRY (force->jump (self, state, k->npoint, k->x, k->normal, PG_CONTACT_RADIUS, &jump));
+    PG_TRY (force->surfaces.jump (self, state, k->npoint, k->x, k->normal, PG_CONTACT_RADIUS, &jump));
     for (size_t q = 0; q < k->npoint; q++) {
         double gap = 0;
         for (size_t e = jump.start[q]; e < jump.start[q + 1]; e++)

@@ -162,7 +162,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
 /* Entries of pg_force_type but for `create`; BOND_FORCE_COMMON: without a matrix. */
 #define BOND_FORCE_ENTRIES \
     BOND_FORCE_COMMON, .matrix = bond_force_matrix, .assemble = bond_force_assemble, \
-    .forget_matrix = bond_force_forget_matrix, .matrix_free = bond_force_matrix_free
+    .spares.forget_matrix = bond_force_forget_matrix, .matrix_free = bond_force_matrix_free
 #define BOND_FORCE_COMMON \
     .free = bond_force_free, .fields = bond_force_fields, .refresh = bond_force_refresh, \
     .balance = bond_force_balance, .mass = bond_force_mass, .operator_ = bond_force_operator, \
@@ -171,9 +171,9 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .field = bond_force_field, .overlap = bond_force_overlap, \
     .census = bond_force_census, .join = bond_force_join, .loads = bond_force_loads, \
     .revision = bond_force_revision, .sample = bond_force_sample, \
-    .balance_and_break = bond_force_balance_and_break, \
-    .bound = bond_force_bound, \
-    .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
-    .couplings = bond_force_couplings, .surface = bond_force_surface, \
-    .spared = bond_force_spared, .faces = bond_force_faces, .jump = bond_force_jump
+    .motion.balance_and_break = bond_force_balance_and_break, \
+    .motion.bound = bond_force_bound, \
+    .motion.row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
+    .spares.couplings = bond_force_couplings, .surfaces.surface = bond_force_surface, \
+    .spares.spared = bond_force_spared, .surfaces.faces = bond_force_faces, .surfaces.jump = bond_force_jump
 #endif

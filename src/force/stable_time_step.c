@@ -10,12 +10,12 @@ pg_status pg_force_bound (const pg_force_type *force, void *self, const pg_cloud
     pg_status status = PG_OK;
     double top = 0;
     *omega = NAN, *from = "largest frequency";
-    if (force->bound) {
+    if (force->motion.bound) {
         *from = "bound of the largest frequency";
-        PG_TRY (force->bound (self, omega));
-    } else if (force->row_sums) {
+        PG_TRY (force->motion.bound (self, omega));
+    } else if (force->motion.row_sums) {
         *from = "bound by row sums";
-        PG_TRY (force->row_sums (self, workspace));
+        PG_TRY (force->motion.row_sums (self, workspace));
         for (size_t i = 0; i < ndof; i++)
             if (pg_owns (cloud->subdomain, i / (ndof / cloud->n))) top = fmax (top, workspace[i] / mass[i]);
         *omega = sqrt (top);

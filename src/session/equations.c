@@ -175,7 +175,7 @@ static pg_status fill (pg_equations *e, const pg_problem *p, const pg_state *sta
     PG_TRY (copy_basis (e, force->basis ? force->basis (self) : NULL, idle));
     PG_TRY (list_free (e));
     PG_TRY (take_vectors (e, force, self, t));
-    if (force->at_nodes) PG_TRY (evaluate_nodes (e, p, state));
+    if (force->surfaces.at_nodes) PG_TRY (evaluate_nodes (e, p, state));
     else PG_TRY (take_displacements (e, p->cloud.n));
 done:
     pg_free (idle);

@@ -39,7 +39,8 @@ static pg_status weigh (pg_solver *s)
     pg_system *sys = &s->break_loop.system;
     double *mass = m->relaxation->mass;
     memset (mass, 0, sys->ndof * sizeof *mass);
-    PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, mass) : sum_rows (sys, mass));
+    if (sys->force->motion.row_sums) PG_TRY (sys->force->motion.row_sums (sys->self, mass));
+    else PG_TRY (sum_rows (sys, mass));
     contact_row_sums (sys, mass);
     for (size_t i = 0; i < sys->ndof; i++) {
         mass[i] *= 0.25 * margin;
@@ -60,7 +61,7 @@ static pg_status prepare (pg_solver *s)
     PG_TRY (system_refresh (sys, s->backup, NULL));
     x->dt = 1;
     PG_TRY (weigh (s));
-    if (!sys->force->row_sums || sys->contact) x->weigh = weigh;
+    if (!sys->force->motion.row_sums || sys->contact) x->weigh = weigh;
     PG_TRY (relaxation_stages (s));
 done:
     return status;

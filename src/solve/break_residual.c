@@ -15,7 +15,7 @@
 /* Is the residual that of d, and of forces that are changed by the rows of these points alone? */
 static int may_carry (const pg_system *s, const dynamics *dyn)
 {
-    return dyn && dyn->whole && s->known && s->mode == SYSTEM_DIAGONAL && s->force->share_of
+    return dyn && dyn->whole && s->known && s->mode == SYSTEM_DIAGONAL && s->force->spares.share_of
            && !s->options->plain && !system_is_shared (s) && !s->contact && !s->excavated && !s->held;
 }
 
@@ -27,10 +27,10 @@ pg_status system_break (pg_system *s, const pg_state *state, const pg_changes *c
     int can = may_carry (s, dyn), joined = can && dyn->join && dyn->join (dyn->context, d, s->full);
     const double *x = joined ? s->full : d;
     s->at_hand = 0;
-    if (can) PG_TRY (s->force->share_of (s->self, x, changes, before, &can));
+    if (can) PG_TRY (s->force->spares.share_of (s->self, x, changes, before, &can));
     PG_TRY (system_refresh (s, state, changes));
     if (!can) goto done;
-    PG_TRY (s->force->share_of (s->self, x, changes, now, &can));
+    PG_TRY (s->force->spares.share_of (s->self, x, changes, now, &can));
     for (size_t i = 0; i < s->ndof; i++) s->residual[i] += before[i] - now[i];
     s->at_hand = 1;
 done:

@@ -254,7 +254,7 @@ static pg_status keep_preconditioner (pg_system *s, int solves, long factored, c
     pg_status status = PG_OK;
     size_t nbond = s->problem->first_bond[PG_BOND_SETS];
     long made = system_has_preconditioner (s) || s->remake;
-    int can = solves && (s->force->couplings || s->force->elements) && operates (s) && factored;
+    int can = solves && (s->force->spares.couplings || s->force->spares.elements) && operates (s) && factored;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
     PG_KEEP_BOUND (k, "the multilevel preconditioner", made, 0, can ? 1 : 0);
     PG_KEEP_BOUND (k, "a factor of the bonds", made ? 0 : factored, 0, system_has_matrix (s) ? 1 : 0);

@@ -47,7 +47,7 @@ static int by_elements (const pg_system *s, int can)
     if (s->problem->sums) return 0;
     pg_solve_counts c = pg_solve_count (s->problem);
     c.columns = contact_columns (s);
-    return pg_solve_by_elements (&c, can && s->force->elements, s->serves, 0);
+    return pg_solve_by_elements (&c, can && s->force->spares.elements, s->serves, 0);
 }
 
 /* solver.linear says it, a force without a matrix leaves no choice, and in a small time step the mass

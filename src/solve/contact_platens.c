@@ -196,9 +196,9 @@ pg_status platens_refresh (pg_system *s, const pg_state *state)
     contact_platens *w = &s->contact->platens;
     pg_jump_rows rows = { 0 };
     if (!w->n) return PG_OK;
-    if (!s->force->trace)
+    if (!s->force->surfaces.trace)
         PG_FAIL (PG_E_USAGE, "platens are known of forces that show the displacement of the surface");
-    PG_TRY (s->force->trace (s->self, state, w->all.npoint, w->all.x, w->all.normal, &rows));
+    PG_TRY (s->force->surfaces.trace (s->self, state, w->all.npoint, w->all.x, w->all.normal, &rows));
     pg_sparse_clear (&w->G);
     PG_TRY (pg_contact_rows_of (&w->G, &w->all, s->problem, &rows));
     PG_TRY (platens_join (s));

@@ -9,7 +9,7 @@ void contact_note_overlap (pg_system *s, const pg_state *state)
 {
     const struct system_contact *c = s->contact;
     double overlap = 0;
-    int points = contact_of_faces (c) && s->force->jump;
+    int points = contact_of_faces (c) && s->force->surfaces.jump;
     if (points && c->ncrack == 0) return;              /* there are none, or nothing has been solved yet */
     pg_contact_pieces cracks = { 0 };                  /* borrowed: without the pieces of platens */
     if (points) cracks = c->pieces, cracks.n = c->ncrack, cracks.npoint = cracks.first[c->ncrack];

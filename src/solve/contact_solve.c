@@ -19,7 +19,7 @@ static const double GOOD = 1e-13;
 /* Are the faces that single broken bonds leave looked for? At rest, of forces by bonds. */
 static int finds_broken (const pg_system *s)
 {
-    return s->force->faces && pg_criterion_of_bonds (s->problem->criterion)
+    return s->force->surfaces.faces && pg_criterion_of_bonds (s->problem->criterion)
            && (s->options->flags & PG_SOLVER_QUASI_STATIC);
 }
 
@@ -168,7 +168,7 @@ static pg_status find_pieces (pg_system *s, const pg_state *state)
     PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
     if (finds_broken (s)) PG_TRY (pg_contact_add_broken (&c->pieces, s->problem, state));
     PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
-    if (s->force->faces)
+    if (s->force->surfaces.faces)
         PG_TRY (pg_contact_layer (&c->G, c->soft, &c->stiffer, &c->pieces, s->force, s->self, state));
     else {
         pg_contact_blind blind;

@@ -51,7 +51,7 @@ static int possible (const pg_solver *s)
     const break_loop *b = &s->break_loop;
     const pg_force_type *f = b->system.force;
     return !s->problem->plain && e->engine && !e->base && !b->growth && break_loop_judges (b)
-           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather
+           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->spares.gather
            && event_solver_has_base (e->engine);
 }
 
@@ -389,7 +389,7 @@ pg_status ahead_take (pg_solver *s)
     pg_stiffness_change none;
     for (size_t i = 0; i < sys->ndof; i++) e->unit[i] = q->block[i * q->stride + q->at];
     e->unit_residual = q->residual;
-    if (++q->at == q->nevent) PG_TRY (sys->force->change (sys->self, &none));
+    if (++q->at == q->nevent) PG_TRY (sys->force->spares.change (sys->self, &none));
 done:
     return status;
 }

@@ -147,7 +147,7 @@ pg_status event_solver_restore (event_solver *e)
     e->t = all, e->factored = 0, e->green = green;
     for (int c = 0; c < e->cases; c++) touched_displacement (e, c);
     e->factorizations = e->s->report->factorizations;
-    PG_TRY (e->s->force->change (e->s->self, &change));
+    PG_TRY (e->s->force->spares.change (e->s->self, &change));
 done:
     return status;
 }

@@ -20,7 +20,7 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
     pg_status status = PG_OK;
     event_solver *e = NULL;
     *out = NULL;
-    if (!s->force->change || !system_has_matrix (s) || !s->linear->factors) return PG_OK;
+    if (!s->force->spares.change || !system_has_matrix (s) || !s->linear->factors) return PG_OK;
     /* Else there is one solve only. Plain runs leave out the springs of weak unknowns as well: what
      * refinement leaves of them moves mechanisms (rows of points between cracks), and the load of an event by
      * 1e-6. */
@@ -138,7 +138,7 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     e->scale = s->reference > 0 ? s->reference : 1;
     for (int c = 0; c < e->cases; c++) memcpy (e->base[c], u[c], e->ndof * sizeof *u[c]);
     PG_TRY (constant_forces (e, e->constant));
-    PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
+    PG_TRY (s->force->spares.change (s->self, &change));      /* the record begins here */
     e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
     e->rent = 0;
     PG_TRY (event_solver_flush (e));
@@ -156,7 +156,7 @@ pg_status event_solver_follow (event_solver *e, double k, double m)
     for (size_t i = 0; i < e->ndof; i++) e->diagonal[i] = k * K->value[K->start[i + 1] - 1];
     if (m != 0) system_add_mass_diagonal (s, m, e->diagonal);
     e->k = k, e->shift = 0, e->scale = 1, e->rent = e->green = e->residual = 0;
-    PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
+    PG_TRY (s->force->spares.change (s->self, &change));      /* the record begins here */
     e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
     PG_TRY (event_solver_flush (e));
 done:
@@ -238,7 +238,7 @@ static pg_status take_in (event_solver *e, event_outcome *outcome)
     pg_status status = PG_OK;
     pg_stiffness_change change;
     int fits = 1;
-    PG_TRY (e->s->force->change (e->s->self, &change));
+    PG_TRY (e->s->force->spares.change (e->s->self, &change));
     *outcome = EVENT_SOLVED;
     if (!e->based) return lose (e, e->why, outcome);
     if (e->factorizations != e->s->report->factorizations)

@@ -107,7 +107,7 @@ pg_status event_zone_fill (event_zone *z, const pg_system *sys, double most, dou
     PG_ALLOC (z->group.bond, n);
     z->group.n = 0;
     for (size_t i = 0; i < nbond; i++) if (z->left_out[i]) z->group.bond[z->group.n++] = i;
-    PG_TRY (sys->force->gather (sys->self, &z->group, &can));
+    PG_TRY (sys->force->spares.gather (sys->self, &z->group, &can));
     if (!can) *share = 1;
     z->known = can;
 done:

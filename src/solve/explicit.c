@@ -225,17 +225,18 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     pg_system *sys = &b->system;
     const pg_force_type *force = sys->force;
     double t0 = pg_seconds (), unused;
-    breaking = breaking && !b->growth && (force->balance_and_break || force->judge)
+    breaking = breaking && !b->growth && (force->motion.balance_and_break || force->judge)
                && s->problem->criterion->type;
     b->changes.n = 0;
-    if (breaking && force->balance_and_break)
-        PG_TRY (force->balance_and_break (sys->self, t, state->d, sys->residual, reference, &b->changes));
+    if (breaking && force->motion.balance_and_break)
+        PG_TRY (force->motion.balance_and_break (sys->self, t, state->d, sys->residual, reference,
+                                                 &b->changes));
     else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     s->evaluations++;
     if (!breaking) goto press;
     size_t own = 0;
-    if (force->balance_and_break) {
+    if (force->motion.balance_and_break) {
         PG_TRY (remove_broken (s, state, t, &own));
         /* in relaxation bonds leave faces that may touch */
         if (own && (s->options.flags & PG_SOLVER_QUASI_STATIC))

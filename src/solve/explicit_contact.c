@@ -18,7 +18,7 @@ pg_status explicit_contact_create (pg_solver *s)
     PG_ALLOC (m->contact, 1);
     if (pairs)
         PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
-    if (pairs && sys->force->at_nodes && !s->problem->approx.type->interpolates) {
+    if (pairs && sys->force->surfaces.at_nodes && !s->problem->approx.type->interpolates) {
         PG_ALLOC (m->contact->moved, sys->ndof);
         PG_ALLOC (m->contact->speed, sys->ndof);
         PG_ALLOC (m->contact->pressed, sys->ndof);
@@ -94,13 +94,13 @@ static pg_status add_pairs (struct explicit_contact *c, const pg_system *sys, co
     if (!c->moved) return pg_short_range_add (c->pairs, state, broken, !broken, state->v, dt, way, f);
     pg_state points = *state;
     points.d = c->moved, points.v = c->speed;
-    sys->force->at_nodes (sys->self, state->d, c->moved);
-    sys->force->at_nodes (sys->self, state->v, c->speed);
+    sys->force->surfaces.at_nodes (sys->self, state->d, c->moved);
+    sys->force->surfaces.at_nodes (sys->self, state->v, c->speed);
     memset (c->pressed, 0, sys->ndof * sizeof *f);
     memset (c->taken, 0, sys->ndof * sizeof *f);
     /* how far shape functions carry is not known beforehand: points are looked at */
     PG_TRY (pg_short_range_add (c->pairs, &points, broken, !broken, c->speed, dt, INFINITY, c->pressed));
-    sys->force->from_nodes (sys->self, c->pressed, c->taken);
+    sys->force->surfaces.from_nodes (sys->self, c->pressed, c->taken);
     for (size_t i = 0; i < sys->ndof; i++) f[i] += c->taken[i];
 done:
     return status;

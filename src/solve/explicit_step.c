@@ -439,7 +439,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     break_loop *b = &s->break_loop;
     const pg_statistics *r = &s->report;
     double t = time_at (s, n);
-    int breaks = (b->system.force->balance_and_break || b->system.force->judge)
+    int breaks = (b->system.force->motion.balance_and_break || b->system.force->judge)
                  && s->problem->criterion->type;
     PG_TRY (share_row (s, state, n));
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));

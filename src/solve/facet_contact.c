@@ -61,7 +61,7 @@ pg_status facet_faces_bear (const break_loop *b, const pg_state *state, const fa
     pg_jump_rows jump = { 0 };
     memset (nodal, 0, s->ndof * sizeof *nodal);
     if (!f->n) return PG_OK;
-    PG_TRY (s->force->jump (s->self, state, f->n, f->x, f->normal, PG_CONTACT_RADIUS, &jump));
+    PG_TRY (s->force->surfaces.jump (s->self, state, f->n, f->x, f->normal, PG_CONTACT_RADIUS, &jump));
     for (size_t q = 0; q < f->n; q++)
         for (size_t e = jump.start[q]; e < jump.start[q + 1]; e++)
             for (size_t k = 0; k < 2; k++)

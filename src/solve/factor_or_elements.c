@@ -31,7 +31,7 @@ static pg_status both_ways (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
     *can = 0;
-    if (!dyn || system_is_shared (s) || s->problem->dim < 3 || !s->force->elements || s->options->plain
+    if (!dyn || system_is_shared (s) || s->problem->dim < 3 || !s->force->spares.elements || s->options->plain
         || s->indefinite
         || strcmp (s->options->linear, "auto") != 0)
         return PG_OK;
@@ -116,7 +116,7 @@ void ways_count (pg_system *s, size_t iterations)
 {
     pg_ways *w = &s->ways;
     double used = (double) iterations, balance = 0;
-    if (s->mode == SYSTEM_KEPT_FACTOR && s->problem->dim > 2 && s->force->elements) {
+    if (s->mode == SYSTEM_KEPT_FACTOR && s->problem->dim > 2 && s->force->spares.elements) {
         int broken = s->following && event_solver_touched (s->following) > 0;
         balance = breaking_cost (s)
                   + used * ((broken ? 2 : 1) * system_solve_cost (s) + system_apply_cost (s))

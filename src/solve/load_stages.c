@@ -10,7 +10,7 @@
 int relaxation_breaks (const pg_solver *s)
 {
     const pg_force_type *force = s->break_loop.system.force;
-    return (force->balance_and_break || force->judge) && pg_criterion_of_bonds (s->problem->criterion);
+    return (force->motion.balance_and_break || force->judge) && pg_criterion_of_bonds (s->problem->criterion);
 }
 
 /* The smallest stretch that breaks a bond, by the criterion itself; INFINITY where stretch does not

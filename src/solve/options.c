@@ -308,7 +308,7 @@ static void check_short_range (const pg_solver_options *o, const pg_problem *pro
                         "impulses act on points with a mass of their own, which the unknowns of "
                         "method.approximation: %s are not: use springs, or method.force: %s",
                         problem->approx.type->name, forces_of_points (names, sizeof names));
-    if (!points && (problem->nplaten || !force || !force->at_nodes))
+    if (!points && (problem->nplaten || !force || !force->surfaces.at_nodes))
         pg_scene_fault (scene, "contact.search",
                         "short_range acts on displacements of points, which the unknowns of "
                         "method.approximation: %s are not: use method.force: %s",
@@ -327,11 +327,11 @@ static void check_faces (const pg_problem *problem, const pg_scene *scene)
     const pg_force_type *force = pg_force_of (problem);
     if (problem->dim == 1)
         pg_scene_fault (scene, "contact.kind", "a body of one dimension has no faces of cracks: set none");
-    else if (force && !force->jump && !force->faces)
+    else if (force && !force->surfaces.jump && !force->surfaces.faces)
         pg_scene_fault (scene, "contact.kind",
                         "force: %s does not show how far crack faces are apart: set none, or take a force "
                         "with shape functions", problem->method->name);
-    else if (force && force->faces && problem->sums && problem->sums->rule.finite)
+    else if (force && force->surfaces.faces && problem->sums && problem->sums->rule.finite)
         pg_scene_fault (scene, "contact.kind",
                         "faces that touch stay where they were opposite each other, which is right for small "
                         "displacements: use method.stretch: linear, or set none");
@@ -359,7 +359,7 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
-    int by_bonds = force && force->faces, rests = (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC,
+    int by_bonds = force && force->surfaces.faces, rests = (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC,
         moves = (o->flags & PG_SOLVER_IMPLICIT) && (o->flags & PG_SOLVER_NEEDS_DENSITY);
     if (o->contact.kind == PG_CONTACT_NONE) {
         need_contact (problem, scene);

@@ -432,7 +432,7 @@ static pg_status measure_state (probe *t, size_t v)
     if (pg_dense_cholesky ((int) t->nv, D, 1e-14)) return PG_OK;
     pg_dense_solve ((int) t->nv, D, strain);
     memset (t->P, 0, t->ndof * sizeof *t->P);
-    if (!t->out.held) PG_TRY (t->force->surface (t->self, stress, t->P));
+    if (!t->out.held) PG_TRY (t->force->surfaces.surface (t->self, stress, t->P));
     for (size_t i = 0; i < t->n; i++) volume += t->p->cloud.volume[i];
     measure_rigid_work (t, volume);
     start (t, strain);
@@ -509,7 +509,7 @@ static void diagonal (void *context, double *d)
  * they would lie in memory beside those of the run. */
 static int lasts (const pg_problem *p)
 {
-    return !p->plain && pg_force_of (p)->lend && !p->criterion->type && p->cracks.n == 0;
+    return !p->plain && pg_force_of (p)->spares.lend && !p->criterion->type && p->cracks.n == 0;
 }
 
 /* A factor where it costs less than iterations and the body is whole. */
@@ -579,7 +579,7 @@ pg_status pg_patch_probe (pg_problem *problem)
     probe t = { .force = pg_force_of (problem) };
     double start = pg_seconds ();
     t.out = (pg_patch) { .error = NAN, .compliance = NAN, .settled = 1 };
-    if (!t.force || !t.force->surface || !t.force->operator_ || !t.force->field) return PG_OK;
+    if (!t.force || !t.force->surfaces.surface || !t.force->operator_ || !t.force->field) return PG_OK;
     PG_TRY (pg_problem_bare (&bare, problem));
     t.p = bare, t.rows = borne_by_rows (problem);
     PG_TRY (prepare (&t));
@@ -592,7 +592,7 @@ pg_status pg_patch_probe (pg_problem *problem)
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     PG_TRY (measure_softness (&t));
     if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
-    if (lasts (problem)) PG_TRY (t.force->lend (t.self, t.state, problem));
+    if (lasts (problem)) PG_TRY (t.force->spares.lend (t.self, t.state, problem));
     t.out.seconds = pg_seconds () - start;
     problem->patch = t.out;
 done:

@@ -111,7 +111,7 @@ void platens_check (const pg_solver_options *o, const pg_problem *problem, const
     }
     refuse_masses (problem, scene);
     solver_names_that (finds_equilibria, NULL, names, sizeof names);
-    if (force && !force->trace)
+    if (force && !force->surfaces.trace)
         pg_scene_fault (scene, "platens",
                         "force: %s does not show the displacement of the surface: take a force with shape "
                         "functions", problem->method->name);

@@ -72,7 +72,8 @@ static int has_what_it_takes (const pg_system *s, const dynamics *dyn)
 {
     const pg_force_type *f = s->force;
     if (!f->operator_ || strcmp (s->options->preconditioner, "jacobi") == 0) return 0;
-    if (f->elements ? s->options->plain : !f->couplings || (dyn && !system_is_shared (s))) return 0;
+    if (f->spares.elements ? s->options->plain : !f->spares.couplings || (dyn && !system_is_shared (s)))
+        return 0;
     return !system_is_shared (s) || pg_shared_preconditioner_now ();
 }
 
@@ -88,7 +89,7 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
         return PG_OK;
     }
     PG_ALLOC (s->fixed, s->ndof);
-    if (s->force->elements || system_is_shared (s)) PG_TRY (find_own_rows (s, T, can));
+    if (s->force->spares.elements || system_is_shared (s)) PG_TRY (find_own_rows (s, T, can));
     else *can = selects (s, T);
     if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* on all ranks */
     s->precondition = *can;
@@ -130,7 +131,7 @@ static pg_status make_by_rows (pg_system *s)
                                       .x = s->problem->cloud.x,
                                       .fixed = s->fixed,
                                       .A = s->force->operator_ (s->self) };
-    PG_TRY (s->force->couplings (s->self, &setting.rows));
+    PG_TRY (s->force->spares.couplings (s->self, &setting.rows));
     PG_TRY (pg_multilevel_create (&s->multilevel, &setting));
 done:
     return status;
@@ -161,7 +162,7 @@ static pg_status make_by_elements (pg_system *s, double k, double m)
     pg_element_setting setting = { .dim = s->problem->dim, .x = s->problem->cloud.x,
                                    .fixed = s->own_row ? s->fixed : NULL,
                                    .subdomain = s->problem->cloud.subdomain };
-    PG_TRY (s->force->elements (s->self, &elements));
+    PG_TRY (s->force->spares.elements (s->self, &elements));
     pg_block_matrix *Q = &elements.Q;
     size_t entries = Q->start[Q->n] * (size_t) (Q->block * Q->block);
     for (size_t q = 0; k != 1 && q < entries; q++) Q->value[q] = (float) (k * Q->value[q]);
@@ -185,7 +186,7 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     s->made[0] = k, s->made[1] = m;
     PG_TRY (system_make_shared_factor (s, &whole));
     if (!whole)
-        PG_TRY (s->force->elements ? make_by_elements (s, k, m)
+        PG_TRY (s->force->spares.elements ? make_by_elements (s, k, m)
                 : system_is_shared (s) ? system_make_shared (s, k, m) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;

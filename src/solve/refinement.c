@@ -68,9 +68,10 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
     pg_status status = PG_OK;
     double reference = 0, t0 = pg_seconds ();
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    int lean = dyn && !s->options->plain && s->force->balance_lean;
+    int lean = dyn && !s->options->plain && s->force->spares.balance_lean;
     int joined = lean && dyn->join && dyn->join (dyn->context, d, s->full);
-    if (lean) PG_TRY (s->force->balance_lean (s->self, t, joined ? s->full : d, s->residual, &reference));
+    if (lean)
+        PG_TRY (s->force->spares.balance_lean (s->self, t, joined ? s->full : d, s->residual, &reference));
     else PG_TRY (s->force->balance (s->self, t, d, s->residual, &reference));
     if (dyn) dyn->add (dyn->context, d, s->residual, &reference);
     const double *contact = contact_forces (s);

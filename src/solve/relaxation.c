@@ -288,7 +288,7 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
     double top, t0 = pg_seconds ();
     size_t before = b->nbroken;
     int tested = o->break_mode == PG_BREAK_PASSING
-                 || (o->break_mode == PG_BREAK_ALL && sys->force->balance_and_break);
+                 || (o->break_mode == PG_BREAK_ALL && sys->force->motion.balance_and_break);
     b->changes.n = 0;
     if (tested) PG_TRY (examine (s, state, t, 1));
     else {

@@ -58,7 +58,7 @@ static pg_status judge_both (break_loop *b, const pg_state *state, const double 
     memcpy (group.bond, b->over.bond, b->over.n * sizeof *group.bond);
     group.n = b->over.n;
     PG_GROW (r->earlier_u, r->room_u, group.n);
-    PG_TRY (s->force->gather (s->self, &group, can));
+    PG_TRY (s->force->spares.gather (s->self, &group, can));
     if (*can) PG_TRY (s->force->judge (s->self, state, r->before,
                                        &(pg_judging){ .group = &group, .utilisation = r->earlier_u }));
 done:
@@ -101,7 +101,7 @@ done:
 /* Also the first share of a run. */
 static int may_be_rough (pg_system *s)
 {
-    if (system_is_shared (s) || !s->force->gather || s->options->plain
+    if (system_is_shared (s) || !s->force->spares.gather || s->options->plain
         || s->rough.share < 0 || s->contact)
         return 0;
     if (s->rough.share == 0) s->rough.share = fmin (first_share, largest_share (s));
@@ -144,7 +144,7 @@ static pg_status choose_candidates (looking *w)
     PG_ALLOC (w->candidates.bond, over->n);
     if (over->n) memcpy (w->candidates.bond, over->bond, over->n * sizeof *over->bond);
     w->candidates.n = over->n;
-    PG_TRY (w->b->system.force->gather (w->b->system.self, &w->candidates, &w->can));
+    PG_TRY (w->b->system.force->spares.gather (w->b->system.self, &w->candidates, &w->can));
 done:
     return status;
 }

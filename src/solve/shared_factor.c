@@ -132,7 +132,7 @@ static pg_status may (pg_system *s, int *yes)
 {
     pg_status status = PG_OK;
     const pg_subdomain *part = s->problem->cloud.subdomain;
-    double not = !part || !s->force->elements || !s->force->matrix
+    double not = !part || !s->force->spares.elements || !s->force->matrix
                  || (s->force->matrix_free && s->force->matrix_free (s->self))
                  || strcmp (s->options->preconditioner, "auto") != 0
                  || part->total * s->components > MOST_UNKNOWNS;

@@ -135,7 +135,7 @@ pg_status system_make_shared (pg_system *s, double k, double m)
                                .fixed = s->fixed, .subdomain = part_of (s),
                                .k = k, .m = m, .mass = s->mass };
     s->made[0] = k, s->made[1] = m;
-    PG_TRY (s->force->couplings (s->self, &setting.rows));
+    PG_TRY (s->force->spares.couplings (s->self, &setting.rows));
     if (has_lattice (s)) {
         PG_TRY (make_levels (s, &setting.rows));
         goto done;

@@ -244,8 +244,8 @@ static void report_sums (pg_solver *s)
                             one.what,
                             "the step before a row leaves the forces, from which work and energy follow");
     }
-    for (size_t k = 0;
-         sys->force->spared && sys->force->spared (sys->self, k, one.what, one.why, &one.seconds_saved); k++)
+    int (*spared) (const void *, size_t, char *, char *, double *) = sys->force->spares.spared;
+    for (size_t k = 0; spared && spared (sys->self, k, one.what, one.why, &one.seconds_saved); k++)
         pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
 }
 

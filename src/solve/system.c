@@ -258,10 +258,10 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
 static void let_all_go (pg_system *s, const dynamics *dyn)
 {
     let_go (s);
-    if (dyn || s->problem->criterion->type || s->options->plain || s->contact || !s->force->forget_matrix
-        || !operator_of (s))
+    if (dyn || s->problem->criterion->type || s->options->plain || s->contact
+        || !s->force->spares.forget_matrix || !operator_of (s))
         return;
-    s->force->forget_matrix (s->self);
+    s->force->spares.forget_matrix (s->self);
     s->forgotten = 1;
 }
 
@@ -480,7 +480,7 @@ static const double MOST_SECONDS = 600;
  * all. */
 static int falls_back (pg_system *s)
 {
-    if (!s->force->elements || !system_has_matrix (s) || strcmp (s->options->linear, "auto") != 0
+    if (!s->force->spares.elements || !system_has_matrix (s) || strcmp (s->options->linear, "auto") != 0
         || system_direct_cost (s) > MOST_SECONDS)
         return 0;
     pg_statistics_warn (s->report, "the iterations with finite elements as preconditioner do not converge: a "

@@ -161,8 +161,8 @@ static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
     const pg_sparse *mass = NULL;
     double *x = NULL, largest = 0;
     for (size_t k = 0; k < n * m * m; k++) largest = fmax (largest, fabs (b->answer[k]));
-    if (b->force->mass_matrix) {
-        PG_TRY (b->force->mass_matrix (b->self, &mass));
+    if (b->force->motion.mass_matrix) {
+        PG_TRY (b->force->motion.mass_matrix (b->self, &mass));
         PG_ALLOC (s->spread, n);
         PG_ALLOC (x, 2 * n);
         x[b->middle] = 1 / (s->material.density * s->volume);

@@ -134,7 +134,7 @@ static inline size_t fail_each_allocation (const char *text)
         assert_true (calls < 1000);
         pg_memory_fail_at (calls + 1);
         now = b.force->create (&self, b.problem);
-        if (now == PG_OK) now = b.force->balance_and_break (self, 0, d, f, &reference, &broken);
+        if (now == PG_OK) now = b.force->motion.balance_and_break (self, 0, d, f, &reference, &broken);
         pg_memory_fail_at (0);
         assert_true (now == PG_OK || now == PG_E_MEMORY);
         if (self) b.force->free (&self);

@@ -48,7 +48,7 @@ static void matrix_is_sweep (bonded *b, double tolerance)
             y[j] += fabs (K->value[q]);
             if ((size_t) K->row[q] != j) y[K->row[q]] += fabs (K->value[q]);
         }
-    check_ok (b->force->row_sums (b->self, sum));
+    check_ok (b->force->motion.row_sums (b->self, sum));
     for (size_t i = 0; i < b->ndof; i++) check_scaled (sum[i], y[i], 1e-12, size_of (b->ndof, y));
     pg_free (x), pg_free (y), pg_free (z), pg_free (d);
 }
@@ -324,7 +324,7 @@ static void test_bound (void **unused)
         double *x = random_vector (b.ndof, 11), *y = pg_calloc (b.ndof, sizeof *y),
                *m = pg_calloc (b.ndof, sizeof *m), omega, top = 0;
         const pg_operator *op = b.force->operator_ (b.self);
-        check_ok (b.force->bound (b.self, &omega));
+        check_ok (b.force->motion.bound (b.self, &omega));
         check_ok (b.force->mass (b.self, m));
         for (int it = 0; it < 400; it++) {
             op->apply (op->context, x, y);
@@ -351,7 +351,7 @@ static void test_shared_bound (void **unused)
         for (int plain = 0; plain < 2; plain++) {
             bonded b = bonded_of (bodies[k]);
             b.problem->plain = plain;
-            check_ok (b.force->bound (b.self, &omega[plain]));
+            check_ok (b.force->motion.bound (b.self, &omega[plain]));
             unbonded (&b);
         }
         assert_true (omega[0] > 0 && omega[0] == omega[1]);
@@ -405,7 +405,7 @@ static void test_products_after_breaking (void **unused)
         const pg_operator *A = a.force->operator_ (a.self), *B = b.force->operator_ (b.self);
         for (size_t i = 0; i < a.ndof; i++) d[i] *= 3e-4;
         A->apply (A->context, x, y);
-        check_ok (a.force->balance_and_break (a.self, 0, d, y, &reference, &broken));
+        check_ok (a.force->motion.balance_and_break (a.self, 0, d, y, &reference, &broken));
         assert_true (broken.n > 10 && broken.n < a.state->nbond / 2);
         for (size_t n = 0; n < broken.n; n++) b.state->alive[broken.bond[n]] = 0;
         check_ok (b.force->refresh (b.self, b.state, NULL));

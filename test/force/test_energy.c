@@ -190,7 +190,7 @@ static void marching (const char *text, int threads, unsigned char **bits)
         pg_changes c = { 0 };
         double t = step < 40 ? 0.03 * step : step < 60 ? 1.2 - 0.06 * (step - 40) : 0.08 * (step - 60);
         displace (&b, t, 1e-3 * step, u);
-        check_ok (b.force->balance_and_break (b.self, 0, u, r, NULL, &c));
+        check_ok (b.force->motion.balance_and_break (b.self, 0, u, r, NULL, &c));
         size_t now = check_changes (&b, u, &c);
         died += now, steps += now > 0;
         /* less than there was already: nobody dies, nobody is born */
@@ -207,7 +207,7 @@ static void marching (const char *text, int threads, unsigned char **bits)
         size_t left = c.n = 0;
         left = live_bonds (&b);
         /* the same again: nothing more */
-        check_ok (b.force->balance_and_break (b.self, 0, u, r, NULL, &c));
+        check_ok (b.force->motion.balance_and_break (b.self, 0, u, r, NULL, &c));
         assert_int_equal (c.n, 0);
         assert_int_equal (left, live_bonds (&b));
         pg_free (c.bond);
@@ -269,7 +269,7 @@ static void exempt_points_and_materials (void **unused)
         pg_changes c = { 0 };
         for (size_t i = 0; i < b.ndof; i++)
             u[i] = i % 2 ? 0 : (step == 1 ? 2.0e-3 : step == 2 ? 2.6e-3 : 4e-3) * b.problem->cloud.x[i];
-        check_ok (b.force->balance_and_break (b.self, 0, u, r, NULL, &c));
+        check_ok (b.force->motion.balance_and_break (b.self, 0, u, r, NULL, &c));
         for (size_t i = 0; i < b.n; i++) {
             double x = b.problem->cloud.x[2 * i], W = plain_energy (&b, i, u);
             int block = x < 1   ? 0
@@ -309,11 +309,11 @@ static void lack_of_memory (void **unused)
         pg_changes c = { 0 };
         displace (&b, 3, 0, u);
         pg_memory_fail_at (k);
-        pg_status status = b.force->balance_and_break (b.self, 0, u, r, NULL, &c);
+        pg_status status = b.force->motion.balance_and_break (b.self, 0, u, r, NULL, &c);
         pg_memory_fail_at (0);
         if (status != PG_OK) {
             assert_int_equal (status, PG_E_MEMORY), assert_int_equal (c.n, 0);
-            check_ok (b.force->balance_and_break (b.self, 0, u, r, NULL, &c));
+            check_ok (b.force->motion.balance_and_break (b.self, 0, u, r, NULL, &c));
         }
         size_t dying = check_changes (&b, u, &c);
         assert_true (dying > 5);

@@ -253,7 +253,7 @@ static void test_breaking (void **unused)
                 for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.7 / most;
                 check_ok (b.force->judge (b.self, b.state, d,
                                           &(pg_judging){ .utilisation = u, .kind = kind }));
-                check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
+                check_ok (b.force->motion.balance_and_break (b.self, 0, d, f, &reference, &broken));
                 assert_true (broken.n > 10 && broken.n < b.state->nbond);
                 size_t at = 0;
                 for (size_t e = 0; e < b.state->nbond; e++) {
@@ -322,7 +322,7 @@ static void test_breaking_graded (void **unused)
         for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
         for (size_t i = 0; i < b.ndof; i++) d[i] *= 2.5 / most;
         check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u, .kind = kind }));
-        check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
+        check_ok (b.force->motion.balance_and_break (b.self, 0, d, f, &reference, &broken));
         assert_true (broken.n > 20 && broken.n < b.state->nbond - 20);
         size_t at = 0;
         const pg_bond_group group = { .n = broken.n, .bond = broken.bond };

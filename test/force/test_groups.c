@@ -50,7 +50,7 @@ static void compare (const char *text, double dead)
         if (some (i / 9 + 5) > 0.5) left_out[i] = 1, group.bond[group.n++] = i;
     assert_true (group.n > 10 && group.n < nbond / 2);
     int can;
-    check_ok (f->gather (self, &group, &can));
+    check_ok (f->spares.gather (self, &group, &can));
     assert_true (can && group.nnode <= r.problem->cloud.n);
     double *gu = pg_calloc (group.n, sizeof *gu), *gf = pg_calloc (group.n, sizeof *gf);
     check_ok (f->judge (self, r.state, block,

@@ -209,7 +209,7 @@ static void check_twins (int dim, const char *method, const char *failure)
     double *r = pg_calloc (b.ndof, sizeof *r);
     pg_changes dead = { 0 };
     for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.1 / top;
-    check_ok (b.force->balance_and_break (b.self, 0, d, r, NULL, &dead));
+    check_ok (b.force->motion.balance_and_break (b.self, 0, d, r, NULL, &dead));
     for (size_t e = 0; e < 2 * half; e++) {
         int now = broken < dead.n && dead.bond[broken] == e;
         if (fabs (1.1 * u[e] / top - 1) > 1e-9) assert_int_equal (now, 1.1 * u[e] / top >= 1);

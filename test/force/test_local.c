@@ -58,7 +58,7 @@ static void a_local_product_is_that_of_the_plain_sum (void **state)
             check_ok (f->refresh (slow, plain.state, NULL));
             /* residuals by products make the table of what is seen */
             double reference;
-            check_ok (f->balance_lean (self, 0, x, y, &reference));
+            check_ok (f->spares.balance_lean (self, 0, x, y, &reference));
             for (double from = 0; from < 40; from += 7) {
                 double top = 0;
                 for (size_t i = 0; i < n; i++) x[i] = here (&r, i, from) ? some (i) : 0;
@@ -122,7 +122,7 @@ static void judge_a_group (const run *r, const double *d)
     pg_bond_group group = { 0 };
     group.bond = pg_calloc (3, sizeof *group.bond), group.n = 3;
     memcpy (group.bond, bonds, sizeof bonds);
-    check_ok (f->gather (self, &group, &can));
+    check_ok (f->spares.gather (self, &group, &can));
     assert_true (can);
     check_ok (f->judge (self, r->state, d, &(pg_judging){ .group = &group, .utilisation = u }));
     pg_bond_group_clear (&group);

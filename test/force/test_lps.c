@@ -51,7 +51,7 @@ static void check_operator (bonded *b)
         K->apply (K->context, y, Ky);
         check_relative (D[i], Ky[i], 1e-11);
     }
-    check_ok (b->force->row_sums (b->self, sum));
+    check_ok (b->force->motion.row_sums (b->self, sum));
     double top = 0, bound = 0;
     /* largest eigenvalue of K against row sums: sum^-1 K has none over 1 */
     for (int it = 0; it < 200; it++) {
@@ -195,7 +195,7 @@ static double speed_of (const char *text, size_t direction, double time)
     bonded b = bonded_of (text);
     double up[2] = { 0 }, sum = 0, middle = 0.5 * b.problem->cloud.high[0],
            half = 0.5 * b.problem->cloud.high[1], omega;
-    check_ok (b.force->bound (b.self, &omega));
+    check_ok (b.force->motion.bound (b.self, &omega));
     long steps = (long) ceil (time * omega / 1.6);
     pg_solver_options o = options_of ("verlet", time / (double) steps, steps);
     for (size_t i = 0; i < b.n; i++)
@@ -261,7 +261,7 @@ static void test_bound (void **unused)
         bonded b = bonded_of (text);
         int follows = b.problem->sums->rule.follow;
         double omega, top = largest_frequency (&b), last = top;
-        check_ok (b.force->bound (b.self, &omega));
+        check_ok (b.force->motion.bound (b.self, &omega));
         check_below (top, omega * (1 + 1e-9));
         check_below (omega, (follows ? 12 : 1.6) * top);
         for (size_t nth = 2; nth < 50; nth *= 2) {
@@ -303,7 +303,7 @@ static void test_bound_of_volumes_that_follow (void **unused)
                                              : (i == centre && j == other) || (i == other && j == centre);
                 }
             check_ok (b.force->refresh (b.self, b.state, NULL));
-            check_ok (b.force->bound (b.self, &omega));
+            check_ok (b.force->motion.bound (b.self, &omega));
             pg_state_moduli (b.problem->mode, 10, 0.3, &dilation, &deviation);
             double top = largest_frequency (&b),
                    pair = sqrt (4 * (deviation + (double) b.dim * dilation) / 3) / h;
@@ -322,7 +322,7 @@ static void test_step (void **unused)
                "0.4") "method: {force: lps}\nboundary: [{set: left, displacement: {x: 0, y: 0}}]\n");
     double omega, *x = random_vector (b.ndof, 5);
     pg_solver *solver = NULL;
-    check_ok (b.force->bound (b.self, &omega));
+    check_ok (b.force->motion.bound (b.self, &omega));
     pg_solver_options o = options_of ("verlet", 1.999 / omega, 400),
                       over = options_of ("verlet", 2.02 / largest_frequency (&b), 400);
     pg_step step;

@@ -45,7 +45,7 @@ static void gaps_see_enough_and_never_across (void **state)
         const pg_force_type *force = pg_solver_force (r.solver, &self);
         for (int i = 0; i < PLACES; i++)
             x[2*i] = -2.4 + 0.2 * i, x[2*i + 1] = 0, normal[2*i] = 0, normal[2*i + 1] = 1;
-        check_ok (force->jump (self, r.state, PLACES, x, normal, 2.5, &rows));
+        check_ok (force->surfaces.jump (self, r.state, PLACES, x, normal, 2.5, &rows));
         double worst = 0;
         size_t across = 0;
         for (size_t q = 0; q < PLACES; q++) {

@@ -75,7 +75,7 @@ static rigid measure (const pg_problem *problem)
         double stress[6] = { 0 }, top = 0, worst = 0;
         stress[v] = 1;
         memset (P, 0, ndof * sizeof *P);
-        check_ok (force->surface (self, stress, P));
+        check_ok (force->surfaces.surface (self, stress, P));
         for (size_t i = 0; i < ndof; i++) top = fmax (top, fabs (P[i]));
         for (size_t p = 0; p < g->sums.n; p++)
             for (size_t e = g->sums.family.start[p]; e < g->sums.family.start[p + 1]; e++)

@@ -146,9 +146,9 @@ static void the_share_of_points_is_what_changes (void **state)
             }
             pg_changes changes = { count, 9, bond };
             multiply (&r, x, y);
-            check_ok (force->share_of (self, x, &changes, before, &can));
+            check_ok (force->spares.share_of (self, x, &changes, before, &can));
             refresh (&r, &changes);
-            check_ok (force->share_of (self, x, &changes, after, &still));
+            check_ok (force->spares.share_of (self, x, &changes, after, &still));
             multiply (&r, x, z);
             assert_int_equal (can, still);
             known += (size_t) can;

@@ -240,14 +240,14 @@ static void the_change_of_K_is_told (void **state)
             pg_stiffness_change c;
             pg_changes dead = { .bond = pg_calloc (r.state->nbond, sizeof *dead.bond) };
             for (size_t i = 0; i < n; i++) x[i] = random_number ();
-            check_ok (f->change (self, &c));
+            check_ok (f->spares.change (self, &c));
             assert_int_equal (c.known, 0);             /* the record begins */
             check_ok (f->balance (self, 1, zero, load0, &reference));
             op->apply (op->context, x, before);
             kill_near_the_middle (&r, &dead);
             pg_status status = f->refresh (self, r.state, &dead);
             if (status == PG_OK) {
-                check_ok (f->change (self, &c));
+                check_ok (f->spares.change (self, &c));
                 op->apply (op->context, x, after);
                 for (size_t i = 0; i < n; i++) top = fmax (top, fabs (after[i]));
                 assert_true (dead.n > 0);
@@ -257,7 +257,7 @@ static void the_change_of_K_is_told (void **state)
                 check_ok (f->balance (self, 1, zero, load1, &reference));
                 for (size_t i = 0; !c.loads && i < n; i++)
                     check_scaled (load0[i], load1[i], 1e-12, reference);
-                check_ok (f->change (self, &c));
+                check_ok (f->spares.change (self, &c));
                 assert_true (c.known && c.n == 0 && !c.loads && !c.basis);     /* nothing since */
             } else assert_true (methods[m].transformation && status == PG_E_SINGULAR);
             pg_free (x), pg_free (dead.bond);

@@ -88,7 +88,7 @@ static void check_operator (bonded *b)
         K->apply (K->context, y, Ky);
         check_scaled (D[i], Ky[i], 1e-11, 1e-6 * D[0]);
     }
-    check_ok (b->force->row_sums (b->self, sum));
+    check_ok (b->force->motion.row_sums (b->self, sum));
     for (int it = 0; it < 200; it++) {
         K->apply (K->context, x, Kx);
         top = 0;
@@ -122,7 +122,7 @@ static double *dense_rows (bonded *b)
 {
     size_t m = b->stride, n = b->ndof;
     pg_couplings c;
-    check_ok (b->force->couplings (b->self, &c));
+    check_ok (b->force->spares.couplings (b->self, &c));
     double *A = pg_calloc (n * n, sizeof *A), *value = pg_calloc (c.widest * m * m, sizeof *value);
     int *node = pg_calloc (c.widest, sizeof *node), *pattern = pg_calloc (c.widest, sizeof *node);
     for (size_t i = 0; i < b->n; i++) {
@@ -345,7 +345,7 @@ static void test_nothing_left (void **unused)
             f[k] = pg_calloc (b[k].ndof, sizeof **f);
             check_ok (b[k].force->balance (b[k].self, 0, d, f[k], NULL));
             check_ok (b[k].force->work (b[k].self, 0, d, NULL, &work_balance));
-            check_ok (b[k].force->bound (b[k].self, &bound[k]));
+            check_ok (b[k].force->motion.bound (b[k].self, &bound[k]));
             energy[k] = work_balance.strain;
             assert_memory_equal (f[k], f[0], b[k].ndof * sizeof **f);
             assert_true (energy[k] == energy[0] && bound[k] == bound[0]);
@@ -449,7 +449,7 @@ static void test_breaking (void **unused)
             check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u }));
             for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
             for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.7 / most;
-            check_ok (b.force->balance_and_break (b.self, 0, d, f, NULL, &broken));
+            check_ok (b.force->motion.balance_and_break (b.self, 0, d, f, NULL, &broken));
             size_t over = 0;
             for (size_t e = 0; e < b.state->nbond; e++) over += u[e] * 1.7 / most >= 1;
             assert_int_equal (broken.n, over);
@@ -474,7 +474,7 @@ static void test_bound (void **unused)
         snprintf (text, sizeof text, "%sfailure: {criterion: beam_limits, fracture_energy: 1}\n", bodies[k]);
         bonded b = bonded_of (text);
         double omega, first = largest_frequency (&b), top = first;
-        check_ok (b.force->bound (b.self, &omega));
+        check_ok (b.force->motion.bound (b.self, &omega));
         check_below (top, omega);
         for (size_t nth = 2; nth < 40; nth *= 2) {
             const pg_family *f = &b.problem->rows[PG_NODES].family;

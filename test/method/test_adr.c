@@ -89,7 +89,7 @@ static void the_printed_update_diverges (void **state)
     double *u = pg_calloc (n, sizeof *u), *f = pg_calloc (n, sizeof *f), *before = pg_calloc (n, sizeof *f),
            *v = pg_calloc (n, sizeof *f), *D = pg_calloc (n, sizeof *f);
     double reference, error[2] = { 0 };
-    check_ok (force->row_sums (self, D));
+    check_ok (force->motion.row_sums (self, D));
     check_ok (force->impose (self, 1, u));
     for (size_t i = 0; i < n; i++) D[i] /= 4;
     for (int k = 0; k < 200; k++) {

@@ -134,7 +134,7 @@ static void march_and_refresh (void **unused)
         check_ok (force->refresh (self, r.state, NULL));
         for (size_t i = 0; i < n; i++) d[i] = 1e-6 * sin (3.7 * (double) i);
         check_ok (force->judge (self, r.state, d, &(pg_judging){ .utilisation = use }));
-        check_ok (force->balance_and_break (self, 0.5e-6, d, a, &reference, &broken));
+        check_ok (force->motion.balance_and_break (self, 0.5e-6, d, a, &reference, &broken));
         for (size_t e = 0; e < nbond; e++) dead += use[e] >= 1;
         assert_true (dead > 20 && dead < nbond);
         assert_int_equal (broken.n, dead);

@@ -155,7 +155,7 @@ static void the_preconditioner_is_symmetric_and_positive (void **state)
         double *a = pg_calloc (4 * n, sizeof *a), *b = a + n, *Pa = b + n, *Pb = Pa + n;
         check_ok (force->create (&self, r.problem));
         check_ok (force->refresh (self, r.state, NULL));
-        check_ok (force->elements (self, &elements));
+        check_ok (force->spares.elements (self, &elements));
         check_ok (pg_element_preconditioner_create (&P, &elements, &setting));
         assert_null (elements.Q.start);
         pg_preconditioner solve = pg_element_preconditioner_of (P);
@@ -199,7 +199,7 @@ static void no_element_spans_a_crack (void **state)
         size_t joined = 0, across = 0;
         check_ok (force->create (&self, r.problem));
         check_ok (force->refresh (self, r.state, NULL));
-        check_ok (force->elements (self, &elements));
+        check_ok (force->spares.elements (self, &elements));
         /* distance above the crack, whose plane rises from y = 0.2 at z = -1 to 0.8 at z = 2 */
         for (size_t i = 0; i < elements.Q.n; i++)
             for (size_t e = elements.Q.start[i]; e < elements.Q.start[i + 1]; e++) {
@@ -230,7 +230,7 @@ static void no_function_spans_a_crack (void **state)
     pg_elements elements;
     check_ok (force->create (&self, r.problem));
     check_ok (force->refresh (self, r.state, NULL));
-    check_ok (force->elements (self, &elements));
+    check_ok (force->spares.elements (self, &elements));
     const pg_hats *h = &elements.hats;
     int *side = pg_calloc (h->count, sizeof *side), both_sides = 0;
     for (size_t f = 0; f < h->count; f++)
@@ -264,7 +264,7 @@ static void the_coarse_matrix_is_that_of_the_force (void **state)
     double *a = pg_calloc (4 * n, sizeof *a), *Ka = a + n, *c = Ka + n, *Qc = c + n, fine, coarse = 0;
     check_ok (force->create (&self, r.problem));
     check_ok (force->refresh (self, r.state, NULL));
-    check_ok (force->elements (self, &elements));
+    check_ok (force->spares.elements (self, &elements));
     size_t m = 3 * elements.hats.count;
     pg_operator Q = pg_block_operator (&elements.Q);
     assert_true (m < n && elements.W.ncol > 0);

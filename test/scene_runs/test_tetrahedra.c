@@ -138,7 +138,7 @@ static pg_elements elements_of (const run *r)
     pg_elements elements;
     check_ok (force->create (&self, r->problem));
     check_ok (force->refresh (self, r->state, NULL));
-    check_ok (force->elements (self, &elements));
+    check_ok (force->spares.elements (self, &elements));
     force->free (&self);
     return elements;
 }

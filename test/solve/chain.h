@@ -141,7 +141,7 @@ static const pg_force_type chain_type = { .method = { .name = "chain" },
                                           .impose = chain_impose,
                                           .work = chain_work,
                                           .loads = chain_external,
-                                          .row_sums = chain_row_sums };
+                                          .motion.row_sums = chain_row_sums };
 
 /* ---- a problem around it ------------------------------------------------------------------------------- */
 typedef struct {

@@ -264,7 +264,7 @@ static void time_steps_beyond_the_stable_one_are_refused (void **state)
      * against 4 k / m by rows */
     the = (chain) { .n = 2, .k = 1e4, .ground = 0, .m = 1 };
     pg_force_type rough = chain_type;
-    rough.bound = NULL;
+    rough.motion.bound = NULL;
     pg_solver_options o = options_of ("verlet", 0.97 * 2 / sqrt (2e4), 100);
     link_up (&l, &o, &rough);
     unlink_all (&l);
@@ -281,7 +281,7 @@ static void the_frequency_itself_decides_beyond_the_bound (void **state)
     (void) state;
     linked l;
     pg_force_type type = chain_type;
-    type.bound = wide_bound;
+    type.motion.bound = wide_bound;
     the = (chain) { .n = 30, .k = 1e4, .ground = 1e4, .m = 1 };
     double limit = 2 / (200 * sin (mode_of (30, 30) / 2));
     pg_solver_options o = options_of ("verlet", 0, 10);

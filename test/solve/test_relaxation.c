@@ -76,7 +76,7 @@ static void sums_of_rows_may_be_left_to_the_matrix (void **state)
 {
     (void) state;
     pg_force_type silent = chain_type;
-    silent.row_sums = NULL;
+    silent.motion.row_sums = NULL;
     the = (chain) { .n = 40, .k = 1e4, .ground = 0, .m = 3, .lead = lead, .push = push };
     pg_solver_options o = options_of ("adr", 5, 1e-11);
     linked a, b;
@@ -249,7 +249,7 @@ static void options_that_cannot_be_are_refused (void **state)
         unlink_all (&l);
     }
     pg_force_type blind = chain_type;
-    blind.matrix = NULL, blind.row_sums = NULL;
+    blind.matrix = NULL, blind.motion.row_sums = NULL;
     pg_solver_options o = options_of ("adr", 3, 1e-9);
     check_fails (try_link (&l, &o, &blind), PG_E_USAGE);
     check_contains (pg_last_error (), "use relax");
