@@ -169,6 +169,22 @@ void pg_signals_release (const pg_signals *before);
 /* ---- sorting, searching -------------------------------------------------------------------------------- */
 /* qsort and bsearch for lists that may be empty, whose address may then be NULL, which those forbid. */
 typedef int (*pg_order) (const void *a, const void *b);
+/* Orders of numbers; those of NaN are not defined. */
+static inline int pg_ascending_sizes (const void *a, const void *b)
+{
+    size_t x = *(const size_t *) a, y = *(const size_t *) b;
+    return (x > y) - (x < y);
+}
+static inline int pg_ascending_ints (const void *a, const void *b)
+{
+    int x = *(const int *) a, y = *(const int *) b;
+    return (x > y) - (x < y);
+}
+static inline int pg_ascending_numbers (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
 static inline void pg_sort (void *list, size_t n, size_t size, pg_order order)
 {
     if (n > 1) qsort (list, n, size, order);

@@ -12,16 +12,9 @@
  * within the segment or triangle. */
 #include "perigal/cloud.h"
 #include "polygon.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
-
-/* a . b */
-static double dot (int dim, const double *a, const double *b)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += a[k] * b[k];
-    return s;
-}
 
 /* a + s (b - a); exactly b for s = 1. */
 static void point_at (int dim, const double *a, const double *b, double s, double *out)
@@ -35,10 +28,10 @@ static double distance_point (int dim, const double *p, const double *a, const d
 {
     double u[3] = { 0 }, w[3] = { 0 };
     for (int k = 0; k < dim; k++) u[k] = b[k] - a[k], w[k] = p[k] - a[k];
-    double uu = dot (dim, u, u), s = uu > 0 ? dot (dim, u, w) / uu : 0;
+    double uu = pg_dot (dim, u, u), s = uu > 0 ? pg_dot (dim, u, w) / uu : 0;
     s = s < 0 ? 0 : s > 1 ? 1 : s;
     for (int k = 0; k < dim; k++) w[k] -= s * u[k];
-    return sqrt (dot (dim, w, w));
+    return sqrt (pg_dot (dim, w, w));
 }
 
 /* Distance of the segments a b and c d: the least distance of the ends or, where the lines are nearest
@@ -50,13 +43,13 @@ static double distance_segments (const double *a, const double *b, const double 
     double q = fmin (distance_point (3, c, a, b), distance_point (3, d, a, b)), least = fmin (p, q);
     for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = d[k] - c[k], w[k] = c[k] - a[k];
     /* Parameters of the nearest points of the two lines, by Cramer's rule. */
-    double uu = dot (3, u, u), vv = dot (3, v, v), uv = dot (3, u, v), det = uu*vv - uv*uv;
+    double uu = pg_dot (3, u, u), vv = pg_dot (3, v, v), uv = pg_dot (3, u, v), det = uu*vv - uv*uv;
     if (!(det > 1e-14 * uu * vv)) return least;
-    double s = (dot (3, u, w) * vv - dot (3, v, w) * uv) / det,
-           t = (dot (3, u, w) * uv - dot (3, v, w) * uu) / det;
+    double s = (pg_dot (3, u, w) * vv - pg_dot (3, v, w) * uv) / det,
+           t = (pg_dot (3, u, w) * uv - pg_dot (3, v, w) * uu) / det;
     if (s < 0 || s > 1 || t < 0 || t > 1) return least;
     for (int k = 0; k < 3; k++) w[k] += t * v[k] - s * u[k];
-    return fmin (least, sqrt (dot (3, w, w)));
+    return fmin (least, sqrt (pg_dot (3, w, w)));
 }
 
 double pg_segment_nearest (const double *a, const double *b, const double *x, double *place, double *distance)
@@ -75,9 +68,9 @@ double pg_segment_nearest (const double *a, const double *b, const double *x, do
 static int meets_segment (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     const double *p = c->vertex, *q = p + 2, t[2] = {c->normal[1], -c->normal[0]};
-    double w[2] = {q[0] - p[0], q[1] - p[1]}, e = dot (2, t, w);
+    double w[2] = {q[0] - p[0], q[1] - p[1]}, e = pg_dot (2, t, w);
     double r[2] = {a[0] - p[0], a[1] - p[1]}, s[2] = {b[0] - p[0], b[1] - p[1]};
-    double i = dot (2, t, r), j = dot (2, t, s);
+    double i = pg_dot (2, t, r), j = pg_dot (2, t, s);
     double first = c->retreat ? c->retreat[0] : 0, last = c->retreat ? c->retreat[1] : 0;
     /* What the retreats leave of the crack, along its direction t. */
     double low = e > 0 ? first : e + last, high = e > 0 ? e - last : -first;

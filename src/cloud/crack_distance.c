@@ -3,10 +3,9 @@
  * sizes. */
 #include "crack_distance.h"
 #include "polygon.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
-
-static double dot (const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Vertex i in space: z = 0 in the plane. */
 static void vertex_of (const pg_crack *c, int dim, size_t i, double *x)
@@ -29,7 +28,8 @@ static double between_edges (const double *a, const double *b, const double *c, 
 {
     double u[3], v[3], w[3];
     for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = d[k] - c[k], w[k] = a[k] - c[k];
-    double uu = dot (u, u), vv = dot (v, v), uv = dot (u, v), uw = dot (u, w), vw = dot (v, w),
+    double uu = pg_dot3 (u, u), vv = pg_dot3 (v, v), uv = pg_dot3 (u, v), uw = pg_dot3 (u, w),
+           vw = pg_dot3 (v, w),
            det = uu * vv - uv * uv,
            s = det > 1e-14 * uu * vv ? fmin (1, fmax (0, (uv * vw - uw * vv) / det)) : 0;
     double t = vv > 0 ? (uv * s + vw) / vv : 0;
@@ -38,7 +38,7 @@ static double between_edges (const double *a, const double *b, const double *c, 
         s = uu > 0 ? fmin (1, fmax (0, (uv * t - uw) / uu)) : 0;
     }
     for (int k = 0; k < 3; k++) w[k] += s * u[k] - t * v[k];
-    return sqrt (dot (w, w));
+    return sqrt (pg_dot3 (w, w));
 }
 
 /* Is the foot of x on the plane of the polygon inside of it? By crossing number in the projection along the
@@ -105,7 +105,7 @@ void crack_ball (const pg_crack *c, int dim, double *middle, double *radius)
     for (size_t i = 0; i < c->nvertex; i++) {
         vertex_of (c, dim, i, x);
         for (int k = 0; k < 3; k++) x[k] -= middle[k];
-        *radius = fmax (*radius, sqrt (dot (x, x)));
+        *radius = fmax (*radius, sqrt (pg_dot3 (x, x)));
     }
 }
 
@@ -117,7 +117,7 @@ double crack_length (const pg_crack *c, int dim)
         for (size_t j = 0; j < i; j++) {
             vertex_of (c, dim, i, x), vertex_of (c, dim, j, y);
             for (int k = 0; k < 3; k++) x[k] -= y[k];
-            most = fmax (most, sqrt (dot (x, x)));
+            most = fmax (most, sqrt (pg_dot3 (x, x)));
         }
     return most;
 }
@@ -133,7 +133,7 @@ static double area_of (const pg_crack *c)
             sum[k] += 0.5 * ((a[p] - o[p]) * (b[q] - o[q]) - (a[q] - o[q]) * (b[p] - o[p]));
         }
     }
-    return sqrt (dot (sum, sum));
+    return sqrt (pg_dot3 (sum, sum));
 }
 
 double pg_crack_size (const pg_crack *c, int dim)

@@ -3,22 +3,15 @@
  * space. What is wrong with one is said in words, so that the caller can add key or line. */
 #include "crack.h"
 #include "polygon.h"
+#include "perigal/vector.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* |a| */
-static double length (int dim, const double *a)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += a[k] * a[k];
-    return sqrt (s);
-}
-
 /* To unit length; one that has it to rounding is kept, so that what was written is read as the same bits. */
 static int scale_to_unit (double *n)
 {
-    double size = length (3, n);
+    double size = pg_size (3, n);
     if (!(size > 0) || !isfinite (size)) return 0;
     if (fabs (size - 1) > 4 * DBL_EPSILON) for (int k = 0; k < 3; k++) n[k] /= size;
     return 1;
@@ -30,7 +23,7 @@ void crack_plane (const double *n, double *e, double *f)
     /* e: the axis least along the normal, without its part along the normal; f = n x e. */
     for (int k = 1; k < 3; k++) if (fabs (n[k]) < fabs (n[least])) least = k;
     for (int k = 0; k < 3; k++) e[k] = (k == least) - n[least] * n[k];
-    double size = length (3, e);
+    double size = pg_size (3, e);
     for (int k = 0; k < 3; k++) e[k] /= size;
     for (int k = 0; k < 3; k++) f[k] = n[(k + 1) % 3] * e[(k + 2) % 3] - n[(k + 2) % 3] * e[(k + 1) % 3];
 }
@@ -38,7 +31,7 @@ void crack_plane (const double *n, double *e, double *f)
 pg_status crack_segment (pg_crack *c, const double *from, const double *to, const char **why)
 {
     pg_status status = PG_OK;
-    double t[2] = { to[0] - from[0], to[1] - from[1] }, size = length (2, t);
+    double t[2] = { to[0] - from[0], to[1] - from[1] }, size = pg_size (2, t);
     *why = NULL;
     PG_ALLOC (c->vertex, 4);
     c->kind = PG_CRACK_SEGMENT, c->nvertex = 2;
@@ -61,7 +54,7 @@ static void find_normal (pg_crack *c)
             c->normal[k] += (a[p] - o[p]) * (b[q] - o[q]) - (a[q] - o[q]) * (b[p] - o[p]);
         }
     }
-    double size = length (3, c->normal);
+    double size = pg_size (3, c->normal);
     for (int k = 0; k < 3 && size > 0; k++) c->normal[k] /= size;
 }
 
@@ -74,10 +67,10 @@ static const char *polygon_fault (const pg_crack *c, double *flat)
         double r[3], d = 0;
         for (int m = 0; m < 3; m++)
             r[m] = c->vertex[3 * i + (size_t) m] - c->vertex[m], d += r[m] * c->normal[m];
-        size = fmax (size, length (3, r));
+        size = fmax (size, pg_size (3, r));
         off = fmax (off, fabs (d));
     }
-    if (!(length (3, c->normal) > 0)) return "has no area";
+    if (!(pg_size (3, c->normal) > 0)) return "has no area";
     /* Vertices are often rounded to five or six digits. */
     if (!(off <= 1e-5 * size)) return "is not plane";
     for (int m = 1; m < 3; m++) if (fabs (c->normal[m]) > fabs (c->normal[k])) k = m;
@@ -150,7 +143,7 @@ pg_status crack_ellipse (pg_crack *c, const double *centre, const double *normal
     for (int k = 0; k < 3 && !*why; k++) part += n[k] * along[k];
     for (int k = 0; k < 3; k++) e[k] = along[k] - part * n[k];
     /* a direction along the normal to a part in 1e6 is none in the plane */
-    if (!*why && !(length (3, e) > 1e-6 * length (3, along))) *why = "long axis lies along its normal";
+    if (!*why && !(pg_size (3, e) > 1e-6 * pg_size (3, along))) *why = "long axis lies along its normal";
     if (*why || !scale_to_unit (e)) return PG_OK;
     for (int k = 0; k < 3; k++) f[k] = n[(k + 1) % 3] * e[(k + 2) % 3] - n[(k + 2) % 3] * e[(k + 1) % 3];
     for (size_t i = 0; i < CRACK_CORNERS; i++) {

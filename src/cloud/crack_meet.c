@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Does a crack meet the body? By subdivision of its segment or triangles, with balls around the pieces. */
 #include "crack.h"
+#include "perigal/vector.h"
 #include <math.h>
 
 /* Depth of the subdivision. */
 enum { DEEPEST = 8 };
-
-/* |a| */
-static double length (int dim, const double *a)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += a[k] * a[k];
-    return sqrt (s);
-}
 
 /* Can the triangle a b c meet the body? 0 only if it certainly does not: a ball around a piece misses the
  * body, or around all parts of the piece, by subdivision into four. */
@@ -27,7 +20,7 @@ static int may_meet (const pg_body *body, const double *a, const double *b, cons
     for (int i = 0; i < 3; i++) {
         double r[3];
         for (int k = 0; k < body->dim; k++) r[k] = corner[i][k] - m[k];
-        radius = fmax (radius, length (body->dim, r));
+        radius = fmax (radius, pg_size (body->dim, r));
     }
     /* The ball about the middle m holds the piece. */
     if (!pg_body_inside (body, m, radius * (1 + 1e-9))) return 0;

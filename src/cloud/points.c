@@ -134,13 +134,6 @@ static double thickness_of (int dim, const pg_scene *scene)
     return dim == 3 ? 1 : pg_scene_number (scene, dim == 2 ? "thickness" : "cross_section");
 }
 
-/* For pg_sort. */
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 static int is_itself (void *context, const double *place, size_t point)
 {
     (void) place;
@@ -170,7 +163,7 @@ static pg_status check_volumes (const pg_cloud *c, const pg_scene *scene)
         if (away > 0) ratio[n++] = c->volume[i] / c->thickness / pow (away, c->dim);
     }
     if (n == 0) goto done;
-    pg_sort (ratio, n, sizeof *ratio, ascending);
+    pg_sort (ratio, n, sizeof *ratio, pg_ascending_numbers);
     if (ratio[n / 2] < most && ratio[n / 2] > 1 / most) goto done;
     pg_scene_fault (scene, "points",
                     "the volumes do not fit the distances: a point has %.3g times the volume that its "

@@ -6,15 +6,8 @@
  * at right angles (cylinder, prism) the distance is sqrt (p^2 + q^2) outside both, else the larger one. */
 #include "shape.h"
 #include "polygon.h"
+#include "perigal/vector.h"
 #include <math.h>
-
-/* |x| */
-static double norm (int dim, const double *x)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += x[k] * x[k];
-    return sqrt (s);
-}
 
 /* Signed distance from the intersection of two sets whose surfaces are at right angles, from the distances
  * p and q. */
@@ -79,7 +72,7 @@ static double distance_ball (const pg_shape *s, int dim, const double *x, double
     (void) reach;
     double r[3];
     for (int k = 0; k < dim; k++) r[k] = x[k] - s->centre[k];
-    return norm (dim, r) - s->radius;
+    return pg_size (dim, r) - s->radius;
 }
 
 static void box_ball (const pg_shape *s, int dim, double *low, double *high)
@@ -94,7 +87,7 @@ static pg_status read_cylinder (pg_shape *s, int dim, const pg_scene *scene, con
     read_ball (s, dim, scene, at);
     s->length = pg_scene_number (scene, "%s.length", at);
     pg_scene_vector (scene, 3, s->axis, "%s.axis", at);
-    double size = norm (3, s->axis);
+    double size = pg_size (3, s->axis);
     if (!(size > 0)) pg_scene_fault (scene, at, "the axis has no length");
     else for (int k = 0; k < 3; k++) s->axis[k] /= size;
     return PG_OK;
@@ -107,7 +100,7 @@ static double distance_cylinder (const pg_shape *s, int dim, const double *x, do
     double r[3], along = 0;
     for (int k = 0; k < dim; k++) r[k] = x[k] - s->centre[k], along += r[k] * s->axis[k];
     for (int k = 0; k < dim; k++) r[k] -= along * s->axis[k];
-    return both (norm (dim, r) - s->radius, fmax (-along, along - s->length));
+    return both (pg_size (dim, r) - s->radius, fmax (-along, along - s->length));
 }
 
 /* A disc across the unit axis a extends R sqrt (1 - a_k^2) along axis k. */

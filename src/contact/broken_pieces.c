@@ -21,6 +21,7 @@
  *
  * Bonds of points that have lost most of theirs do not count: rubble has no faces. */
 #include "pieces.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,8 +124,6 @@ static void add_square (size_t dim, double weight, const double *xi, double *out
         for (size_t c = 0; c < dim; c++) out[a * dim + c] += weight * xi[a] * xi[c];
 }
 
-static double length_of (const double *xi) { return sqrt (dot3 (xi, xi)); }
-
 /* What the dead bonds of a point, and all bonds of it, amount to. */
 static void measure_place (const faces *w, size_t i)
 {
@@ -132,7 +131,7 @@ static void measure_place (const faces *w, size_t i)
     const double *x = w->p->cloud.x, *at = x + w->dim * l->node;
     for (size_t k = w->start[i]; k < w->start[i + 1]; k++) {
         const broken *b = &w->broken[w->of[k]];
-        double r = length_of (b->xi), sense = b->end[0] == i ? 0.5 : -0.5;
+        double r = pg_size (3, b->xi), sense = b->end[0] == i ? 0.5 : -0.5;
         add_square (w->dim, 1 / (r * r), b->xi, l->tensor);
         for (size_t c = 0; c < w->dim; c++) l->mean[c] += (at[c] + sense * b->xi[c]) / r;
         l->mean[3] += 1 / r;
@@ -142,7 +141,7 @@ static void measure_place (const faces *w, size_t i)
         double xi[3] = { 0 };
         if (j == l->node) continue;
         for (size_t c = 0; c < w->dim; c++) xi[c] = x[w->dim * j + c] - at[c];
-        add_square (w->dim, w->p->cloud.volume[j] / length_of (xi), xi, l->moment);
+        add_square (w->dim, w->p->cloud.volume[j] / pg_size (3, xi), xi, l->moment);
     }
 }
 
@@ -160,7 +159,7 @@ static void smooth_place (const faces *w, size_t i)
         if (j == own->node || !w->at[j]) continue;
         const place *l = &w->place[w->at[j] - 1];
         for (size_t c = 0; c < w->dim; c++) xi[c] = x[w->dim * j + c] - at[c];
-        double weight = fmax (0, 1 - length_of (xi) / reach);
+        double weight = fmax (0, 1 - pg_size (3, xi) / reach);
         for (size_t k = 0; k < w->dim * w->dim; k++) out->tensor[k] += weight * l->tensor[k];
         for (int k = 0; k < 4; k++) out->mean[k] += weight * l->mean[k];
     }
@@ -179,7 +178,7 @@ static void mean_moment (const faces *w, const broken *b, double *M)
 static double weight_of (const faces *w, const broken *b)
 {
     const double *volume = w->p->cloud.volume;
-    return 2 * volume[w->place[b->end[0]].node] * volume[w->place[b->end[1]].node] / length_of (b->xi);
+    return 2 * volume[w->place[b->end[0]].node] * volume[w->place[b->end[1]].node] / pg_size (3, b->xi);
 }
 
 /* The area that a bond crosses of faces with normal n, m^2. */
@@ -188,7 +187,7 @@ static double area_of (const faces *w, const broken *b, const double *n)
     double M[9], stiff = 0;
     mean_moment (w, b, M);
     for (size_t k = 0; k < w->dim * w->dim; k++) stiff += M[k] * n[k / w->dim] * n[k % w->dim];
-    return stiff > 0 ? weight_of (w, b) * fabs (dot3 (b->xi, n)) / stiff : 0;
+    return stiff > 0 ? weight_of (w, b) * fabs (pg_dot3 (b->xi, n)) / stiff : 0;
 }
 
 /* The part of the area of a bond, its place, and its normal in the sense of that of its first end. */
@@ -201,7 +200,7 @@ static void measure_bond (const faces *w, broken *b, dot *d)
     for (size_t k = 0; k < w->dim * w->dim; k++) A[k] = i->tensor[k] + j->tensor[k];
     pg_dense_eigen ((int) w->dim, A, lambda, V);
     for (size_t k = 0; k < w->dim; k++) d->normal[k] = V[k * w->dim];
-    double sense = dot3 (d->normal, i->normal) < 0 ? -1 : 1;
+    double sense = pg_dot3 (d->normal, i->normal) < 0 ? -1 : 1;
     for (size_t k = 0; k < w->dim; k++) {
         d->normal[k] *= sense, d->x[k] = x[k] + 0.5 * b->xi[k];
         off += d->normal[k] * (d->x[k] - (i->mean[k] + j->mean[k]) / weight);
@@ -230,7 +229,7 @@ static pg_status walk (faces *w, size_t from)
             const broken *b = &w->broken[w->of[q]];
             place *next = &w->about[b->end[b->end[0] == i]];
             if (next->seen) continue;
-            double sense = dot3 (next->normal, w->about[i].normal) < 0 ? -1 : 1;
+            double sense = pg_dot3 (next->normal, w->about[i].normal) < 0 ? -1 : 1;
             for (size_t c = 0; c < w->dim; c++) next->normal[c] *= sense;
             next->seen = 1, list[n++] = b->end[b->end[0] == i];
         }
@@ -255,13 +254,13 @@ static void find_normal (const faces *w, size_t first, pg_contact_piece *piece)
         const dot *d = &w->dot[i];
         double to[3];
         for (int k = 0; k < 3; k++) to[k] = d->x[k] - piece->x[k];
-        double weight = 1 - length_of (to) / (WINDOW * h);
-        if (!(weight > 0) || dot3 (d->normal, piece->normal) < ALIKE) continue;
+        double weight = 1 - pg_size (3, to) / (WINDOW * h);
+        if (!(weight > 0) || pg_dot3 (d->normal, piece->normal) < ALIKE) continue;
         const broken *b = &w->broken[w->order[i]];
-        if (dot3 (b->xi, piece->normal) < 0) weight = -weight;
+        if (pg_dot3 (b->xi, piece->normal) < 0) weight = -weight;
         for (int k = 0; k < 3; k++) sum[k] += weight * b->part[k];
     }
-    size = length_of (sum);
+    size = pg_size (3, sum);
     for (int k = 0; k < 3 && size > 0; k++) piece->normal[k] = sum[k] / size;
 }
 
@@ -289,7 +288,7 @@ static pg_status put_pieces (const faces *w, size_t first, size_t count, size_t 
             for (int c = 0; c < 3; c++)
                 piece->x[c] += d->area * d->x[c], piece->normal[c] += d->area * d->normal[c];
         }
-        double size = length_of (piece->normal);
+        double size = pg_size (3, piece->normal);
         if (!(size > 0)) continue;
         for (int c = 0; c < 3; c++) piece->x[c] /= all, piece->normal[c] /= size;
         usual /= all;

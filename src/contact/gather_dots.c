@@ -54,7 +54,7 @@ static void gather_round (dot *d, size_t n, size_t count, double *centre)
         to[6] += d[i].size;
     }
     for (size_t k = 0; k < count; k++) {
-        double *to = centre + WIDE * k, size = sqrt (dot3 (to + 3, to + 3));
+        double *to = centre + WIDE * k, size = sqrt (pg_dot3 (to + 3, to + 3));
         for (int c = 0; c < 3 && to[6] > 0; c++) to[c] /= to[6], to[3 + c] /= size;
     }
 }
@@ -88,9 +88,9 @@ void piece_tangents (const double *n, const double *along, double *out)
     for (int c = 1; c < 3; c++) if (fabs (n[c]) < fabs (n[least])) least = c;
     axis[least] = 1;
     if (!along) along = axis;
-    part = dot3 (n, along);
+    part = pg_dot3 (n, along);
     for (int k = 0; k < 3; k++) out[k] = along[k] - part * n[k];
-    size = sqrt (dot3 (out, out));
+    size = sqrt (pg_dot3 (out, out));
     for (int k = 0; k < 3; k++) out[k] /= size;
-    cross3 (n, out, out + 3);
+    pg_cross3 (n, out, out + 3);
 }

@@ -86,12 +86,6 @@ static int ends_on_another (const division *d, const segment *s, int end)
     return 0;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Cuts segments where others meet them: the face that is met falls into two, which move each by itself, so
  * that no piece may reach across. Parts of less than half a spacing are left with their neighbours. */
 static pg_status split_segments (division *d)
@@ -109,7 +103,7 @@ static pg_status split_segments (division *d)
             share[met] = j == k ? NAN : met_at (d, k, j);
             met += isfinite (share[met]) != 0;
         }
-        pg_sort (share, met, sizeof *share, ascending);
+        pg_sort (share, met, sizeof *share, pg_ascending_numbers);
         for (int m = 0; m < 2; m++) from[m] = rest.end[0][m], u[m] = rest.end[1][m] - from[m];
         PG_GROW (all, cap, n + met + 1);
         for (size_t i = 0; i < met; i++) {

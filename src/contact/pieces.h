@@ -5,6 +5,7 @@
 #ifndef PG_CONTACT_PIECES_H
 #define PG_CONTACT_PIECES_H
 #include "perigal/contact.h"
+#include "perigal/vector.h"
 
 /* Into how many pieces of nearly the size `full` what is `size` large is divided, one at least; half a piece
  * more than a whole number, but for rounding, is no piece more. Both in local spacings, or squared ones. */
@@ -30,13 +31,4 @@ pg_status gather_dots (dot *d, size_t n, double full, size_t *count);
  * along the axis that lies most in that plane. */
 void piece_tangents (const double *n, const double *along, double *out);
 
-static inline double dot3 (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
-
-static inline void cross3 (const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        out[k] = a[m]*b[n] - a[n]*b[m];
-    }
-}
 #endif

@@ -58,7 +58,7 @@ static void lay_sheet (const pg_crack *c, sheet *s)
         for (int a = 0; a < 2; a++) s->low[a] = -c->radius, s->high[a] = c->radius;
     }
     memcpy (s->origin, from, sizeof s->origin);
-    cross3 (c->normal, s->axis[0], s->axis[1]);
+    pg_cross3 (c->normal, s->axis[0], s->axis[1]);
     for (size_t i = 0; c->kind != PG_CRACK_DISC && i < c->nvertex; i++)
         for (int a = 0; a < 2; a++) {
             double at = 0;
@@ -263,7 +263,7 @@ static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, s
             for (int c = 0; c < 3; c++)
                 piece->x[c] += d->area * d->x[c], piece->normal[c] += d->area * d->normal[c];
         }
-        size = sqrt (dot3 (piece->normal, piece->normal));
+        size = sqrt (pg_dot3 (piece->normal, piece->normal));
         if (out->npoint == begins || !(size > 0)) continue;
         for (int c = 0; c < 3; c++) piece->x[c] /= piece->area, piece->normal[c] /= size;
         piece_tangents (piece->normal, along, piece->tangent[0]);
@@ -284,7 +284,7 @@ static double nearest_of_sheet (const surface *w, const dot *grown, size_t first
     double least = INFINITY, h2 = grown->area / grown->size, off = 0;
     const double *normal = w->dot[first].normal;
     for (int k = 0; k < 3; k++) off += (grown->x[k] - w->dot[first].x[k]) * normal[k];
-    if (fabs (dot3 (grown->normal, normal)) < SAME_PLANE || off * off > OFF_PLANE * OFF_PLANE * h2)
+    if (fabs (pg_dot3 (grown->normal, normal)) < SAME_PLANE || off * off > OFF_PLANE * OFF_PLANE * h2)
         return INFINITY;
     for (size_t i = first; i < w->ndot; i++) {
         double far = 0;
@@ -350,14 +350,14 @@ static pg_status add_triangle (surface *w, const pg_crack *c, size_t number)
     double u[3], v[3], n[3], longest = 0, least = INFINITY;
     for (int k = 0; k < 3; k++)
         u[k] = c->vertex[3 + k] - c->vertex[k], v[k] = c->vertex[6 + k] - c->vertex[k];
-    cross3 (u, v, n);
+    pg_cross3 (u, v, n);
     for (size_t i = 0; i < 3; i++) {
         const double *a = c->vertex + 3*i, *b = c->vertex + 3 * ((i + 1) % 3);
         longest = fmax (longest, hypot (hypot (b[0] - a[0], b[1] - a[1]), b[2] - a[2]));
         least = fmin (least, pg_problem_spacing_at (w->p, a));
     }
     size_t parts = pg_cloud_pieces (&w->p->cloud, longest, least / PG_CONTACT_POINTS_SPACE);
-    double area = 0.5 * sqrt (dot3 (n, n)) / (double) (parts * parts);
+    double area = 0.5 * sqrt (pg_dot3 (n, n)) / (double) (parts * parts);
     PG_GROW (w->grown, w->cap_grown, w->ngrown + parts * parts);
     for (size_t i = 0; i < parts; i++)
         for (size_t j = 0; j < 2 * (parts - i) - 1; j++) {
@@ -379,7 +379,7 @@ done:
 /* Do two triangles share a vertex without a sharp turn? */
 static int goes_on (const pg_crack_surfaces *s, size_t a, size_t b)
 {
-    if (dot3 (s->cracks.crack[s->nfirst + a].normal, s->cracks.crack[s->nfirst + b].normal)
+    if (pg_dot3 (s->cracks.crack[s->nfirst + a].normal, s->cracks.crack[s->nfirst + b].normal)
         < cos (PG_CONTACT_TURN)) return 0;
     for (int i = 0; i < 9; i++)
         if (s->corner[3*a + (size_t) (i / 3)] == s->corner[3*b + (size_t) (i % 3)]) return 1;

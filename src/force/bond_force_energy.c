@@ -54,12 +54,6 @@ static size_t back_of (const pg_family *f, size_t i, size_t j)
     return low;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    size_t x = *(const size_t *) a, y = *(const size_t *) b;
-    return x < y ? -1 : x > y;
-}
-
 /* Both directions of the live bonds of dying points. */
 static pg_status collect (const bond_force *b, pg_changes *out)
 {
@@ -74,7 +68,7 @@ static pg_status collect (const bond_force *b, pg_changes *out)
             out->bond[out->n++] = e;
             if (!b->dying[j]) out->bond[out->n++] = back_of (f, i, j);
         }
-    if (out->n > before) pg_sort (out->bond + before, out->n - before, sizeof *out->bond, ascending);
+    if (out->n > before) pg_sort (out->bond + before, out->n - before, sizeof *out->bond, pg_ascending_sizes);
 done:
     if (status != PG_OK) out->n = before;
     return status;

@@ -3,6 +3,7 @@
  * those equally near, or to those of the column below it, by their volumes; a total force to all points of
  * its set alike; a force per volume to every point by its volume. */
 #include "point_boundary.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,18 +29,7 @@ done:
     return status;
 }
 
-/* For qsort and bsearch; numbers of points and facets are never negative. */
-static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
-
 /* ---- facets -------------------------------------------------------------------------------------------- */
-/* Between two places, m. */
-static double distance (const double *a, const double *b, int dim)
-{
-    double sum = 0;
-    for (int k = 0; k < dim; k++) sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sqrt (sum);
-}
-
 enum { MOST_TIES = 16 };
 
 /* Points as near to a facet's centre as the nearest one, to a millionth of the spacing; others are refused
@@ -66,7 +56,7 @@ static size_t nearest_points (const point_boundary *s, const pg_nearest *grid, c
     while (k.n < MOST_TIES) {
         long j = pg_nearest_find (grid, centre, is_known, &k);
         if (j < 0) break;
-        double away = distance (centre, c->x + (size_t) j * (size_t) s->dim, s->dim);
+        double away = pg_distance (s->dim, centre, c->x + (size_t) j * (size_t) s->dim);
         if (k.n == 0) first = away;
         else if (away > first + 1e-6 * c->h) break;
         found[k.n++] = (int) j;
@@ -77,7 +67,7 @@ static size_t nearest_points (const point_boundary *s, const pg_nearest *grid, c
 /* Is value in the ascending list? */
 static int member (const int *list, size_t n, int value)
 {
-    return n && pg_search (&value, list, n, sizeof *list, ascending) != NULL;
+    return n && pg_search (&value, list, n, sizeof *list, pg_ascending_ints) != NULL;
 }
 
 /* ---- columns below facets ------------------------------------------------------------------------------ */
@@ -114,7 +104,8 @@ static pg_status column_parts (gathering *g, const point_boundary *s, const colu
 {
     pg_status status = PG_OK;
     const double *volume = s->problem->cloud.volume;
-    const int *at = pg_search (&facet, c->load->set->facet, c->load->set->nfacet, sizeof facet, ascending);
+    const int *at = pg_search (&facet, c->load->set->facet, c->load->set->nfacet, sizeof facet,
+                               pg_ascending_ints);
     double sum = 0, weight = part.weight;
     size_t first = c->near.start[at - c->load->set->facet],
            last = c->near.start[at - c->load->set->facet + 1];
@@ -236,7 +227,7 @@ pg_status boundary_shares (boundary_load *out, point_boundary *s, int load)
     for (size_t i = 0; i < s->n; i++) g.index[i] = -1;
     if (l->kind == PG_TRACTION || l->kind == PG_PRESSURE) PG_TRY (facet_parts (&g, s, l));
     else PG_TRY (point_parts (&g, s, l));
-    if (out->npoint) pg_sort (out->point, out->npoint, sizeof *out->point, ascending);
+    if (out->npoint) pg_sort (out->point, out->npoint, sizeof *out->point, pg_ascending_ints);
     for (size_t k = 0; k < out->npoint; k++) g.index[out->point[k]] = (int) k;
     for (size_t k = 0; k < out->npart; k++) out->part[k].at = (size_t) g.index[out->part[k].at];
 done:

@@ -9,19 +9,12 @@
  *       so hard that the support locks (a cantilever at 0.4999 came out 1.8 % too stiff, against 0.05 %
  * so). */
 #include "galerkin_dilatation.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- which patch goes on at a facet -------------------------------------------------------------------- */
-/* Squared distance, m^2. */
-static double distance2 (int dim, const double *x, const double *y)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += (x[k] - y[k]) * (x[k] - y[k]);
-    return s;
-}
-
 /* Does evaluation point p belong to a patch? */
 static int is_covered (const pg_patches *q, size_t p) { return q->start[p + 1] > q->start[p]; }
 
@@ -45,7 +38,7 @@ static pg_status find_homes (galerkin *g)
         double best = INFINITY;
         long home = -1;
         for (size_t q = first[cell]; q < first[cell + 1]; q++) {
-            double d = distance2 (g->dim, r->x + f * dim, b->x + q * dim);
+            double d = pg_distance2 (g->dim, r->x + f * dim, b->x + q * dim);
             if (is_covered (p->patches, q) && d < best) best = d, home = (long) q;
         }
         if (home < 0) home = pg_nearest_find (grid, r->x + f * dim, NULL, NULL);
@@ -93,9 +86,6 @@ done:
     return status;
 }
 
-/* For qsort; numbers of nodes are never negative. */
-static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
-
 /* Nodes of a family that are not yet stamped with c, appended. */
 static pg_status add_nodes (galerkin_dilatation *d, const pg_family *f, size_t at, int c, size_t *cap,
                             size_t *n)
@@ -125,7 +115,8 @@ static pg_status unite (galerkin *g)
         PG_TRY (add_nodes (d, &p->family, c, (int) c, &cap, &n));
         for (size_t i = d->facet_start[c]; i < d->facet_start[c + 1]; i++)
             PG_TRY (add_nodes (d, &g->rows[PG_FACETS].family, d->facet[i], (int) c, &cap, &n));
-        pg_sort (d->family.node + d->family.start[c], n - d->family.start[c], sizeof (int), ascending);
+        pg_sort (d->family.node + d->family.start[c], n - d->family.start[c], sizeof (int),
+                 pg_ascending_ints);
         d->family.start[c + 1] = n;
     }
 done:

@@ -315,9 +315,9 @@ static void facet_shape (const galerkin *g, size_t p, size_t m, const int *node,
     const double *x = g->rows[PG_FACETS].x + p * dim;
     double c[3] = { 0 }, A[9] = { 0 }, w[MOST_NODES], sum = 0, far = 0,
            h = pg_problem_spacing (g->problem, PG_FACETS, p);
-    for (size_t a = 0; a < m; a++) far = fmax (far, distance2 (g->dim, x, place (g, node[a])));
+    for (size_t a = 0; a < m; a++) far = fmax (far, pg_distance2 (g->dim, x, place (g, node[a])));
     for (size_t a = 0; a < m; a++) {
-        double left = far > 0 ? 1 - distance2 (g->dim, x, place (g, node[a])) / (beyond * far) : 1;
+        double left = far > 0 ? 1 - pg_distance2 (g->dim, x, place (g, node[a])) / (beyond * far) : 1;
         sum += w[a] = left * left;
     }
     for (size_t a = 0; a < m; a++)
@@ -452,12 +452,6 @@ static void add_penalties (const galerkin *g, pg_block_matrix *Q)
     }
 }
 
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Horizon of a point in units of the spacing of a lattice as dense as the points stand: of a mesh, whose
  * spacing is the mean length of its edges, it is more than in units of that. In the lower quartile, as points
  * on the surface have a part of a volume only. */
@@ -470,7 +464,7 @@ static pg_status width_of_supports (const pg_problem *p, double *width)
     for (size_t i = 0; i < c->n; i++)
         all[i] = p->approx.horizon * pg_cloud_ratio (c, i)
                  / pow (c->volume[i] / c->thickness, 1.0 / c->dim);
-    pg_sort (all, c->n, sizeof *all, ascending);
+    pg_sort (all, c->n, sizeof *all, pg_ascending_numbers);
     *width = all[c->n / 4];
     if (c->subdomain) PG_TRY (pg_ranks_most (1, width));   /* one polynomial for all ranks */
 done:

@@ -5,6 +5,7 @@
 #ifndef PG_GALERKIN_ELEMENTS_H
 #define PG_GALERKIN_ELEMENTS_H
 #include "galerkin.h"
+#include "perigal/vector.h"
 
 /* Kinds of elements besides those of meshes: around an evaluation point; springs of a supported facet
  * point. */
@@ -35,13 +36,6 @@ int       elements_stiff (const galerkin *g, const constraint *q);
 /* galerkin_hats.c: is it elements on a coarse grid that precondition? They, of a body whose W is known. */
 int       galerkin_takes_hats (const galerkin *g);
 pg_status galerkin_hats (galerkin *g, pg_elements *out);
-/* Squared distance, m^2. */
-static inline double distance2 (int dim, const double *a, const double *b)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += (a[k] - b[k]) * (a[k] - b[k]);
-    return s;
-}
 /* Of a node. */
 static inline const double *place (const galerkin *g, int node)
 {

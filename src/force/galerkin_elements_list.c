@@ -46,7 +46,7 @@ int elements_nearest (const galerkin *g, const pg_rows *r, size_t p, const doubl
     int best = -1;
     *d2 = INFINITY;
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-        double d = distance2 (g->dim, x, place (g, r->family.node[e]));
+        double d = pg_distance2 (g->dim, x, place (g, r->family.node[e]));
         if (d < *d2) *d2 = d, best = r->family.node[e];
     }
     return best;
@@ -58,7 +58,7 @@ static size_t nearest_point (const galerkin *g, const pg_rows *r, size_t first, 
     size_t best = first;
     double least = INFINITY;
     for (size_t p = first; p < last; p++) {
-        double d = distance2 (g->dim, x, r->x + p * (size_t) g->dim);
+        double d = pg_distance2 (g->dim, x, r->x + p * (size_t) g->dim);
         if (d < least) least = d, best = p;
     }
     return best;
@@ -133,7 +133,7 @@ static size_t near_nodes (const galerkin *g, int set, size_t p, double within, i
         m = 0;
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && m < MOST_NODES; e++)
             if ((r->w[e + offset] > 0 || r->family.node[e] == r->own[p])
-                && distance2 (g->dim, x, place (g, r->family.node[e])) <= reach * reach)
+                && pg_distance2 (g->dim, x, place (g, r->family.node[e])) <= reach * reach)
                 node[m++] = r->family.node[e];
         if (m >= enough || m >= seen || m == MOST_NODES) break;
     }
@@ -162,7 +162,8 @@ static pg_status append (element_list *b, size_t of, int kind, double weight, si
     /* no two nodes of it are further apart than twice the farthest from the first */
     for (size_t k = 1; k < m; k++)
         for (size_t i = 0; i < k; i++)
-            b->reach = fmax (b->reach, distance2 (b->g->dim, place (b->g, node[i]), place (b->g, node[k])));
+            b->reach = fmax (b->reach,
+                             pg_distance2 (b->g->dim, place (b->g, node[i]), place (b->g, node[k])));
 done:
     return status;
 }
@@ -195,7 +196,7 @@ static pg_status append_halved (element_list *b, size_t cell, const int *node)
     double least = INFINITY;
     int best = 0, small[4];
     for (int k = 0; k < 3; k++) {
-        double d2 = distance2 (3, place (b->g, node[line[k][0]]), place (b->g, node[line[k][1]]));
+        double d2 = pg_distance2 (3, place (b->g, node[line[k][0]]), place (b->g, node[line[k][1]]));
         if (d2 < (1 - 1e-9) * least) least = d2, best = k;
     }
     for (int k = 0; k < 4; k++) {

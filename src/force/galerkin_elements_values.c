@@ -71,12 +71,6 @@ static void compare_diagonals (const galerkin *g, const pg_block_matrix *Q, doub
     }
 }
 
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Shares s of the rows (n), 1 away from cracks. */
 static pg_status find_shares (const galerkin *g, const pg_block_matrix *Q, double *share)
 {
@@ -91,7 +85,7 @@ static pg_status find_shares (const galerkin *g, const pg_block_matrix *Q, doubl
     PG_ALLOC (sorted, g->n);
     compare_diagonals (g, Q, rho);
     memcpy (sorted, rho, g->n * sizeof *rho);
-    pg_sort (sorted, g->n, sizeof *sorted, ascending);
+    pg_sort (sorted, g->n, sizeof *sorted, pg_ascending_numbers);
     double usual = on_surface * sorted[g->n / 2];
     for (size_t i = 0; i < g->n; i++)
         if (beside[i]) share[i] = fmax (0, 1 - sqrt (fmax (0, rho[i] - usual)));

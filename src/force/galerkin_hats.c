@@ -320,7 +320,7 @@ static double farthest (const sums *b)
     for (size_t group = 0; group < l->n; group++)
         for (size_t k = l->start[group]; k < l->start[group + 1]; k++)
             for (size_t i = l->start[group]; i < k; i++)
-                most = fmax (most, distance2 (b->g->dim, b->out->hats.place + (size_t) l->node[k] * dim,
+                most = fmax (most, pg_distance2 (b->g->dim, b->out->hats.place + (size_t) l->node[k] * dim,
                                               b->out->hats.place + (size_t) l->node[i] * dim));
     return sqrt (most);
 }

@@ -247,9 +247,6 @@ void galerkin_facet_rows (void *context, size_t p, size_t a, size_t m, double *o
     facet_terms (g, p, a, m, (size_t) g->dim, m * (size_t) g->dim, out);
 }
 
-/* For bsearch; numbers of nodes are never negative. */
-static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
-
 /* Stiffness at a node, N/m. Of a spring: the node's share of it. Of a penalty: factor E / h^2 times the
  * node's volume, so that the force on a
  * layer of points one spacing deep is that of springs factor E / h per area. */
@@ -261,7 +258,7 @@ static double penalty (const galerkin *g, const constraint *q)
     const pg_load *load = &p->load[q->load];
     if (load->kind == PG_SPRING) {
         const int own = (int) node, *at = pg_search (&own, load->set->point, load->set->npoint, sizeof own,
-                                                   ascending);
+                                                   pg_ascending_ints);
         return load->stiffness[q->component] * pg_load_share (load, (size_t) (at - load->set->point));
     }
     return p->load[q->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)

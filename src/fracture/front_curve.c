@@ -3,24 +3,15 @@
  * n the normal of the crack between those of the vertices made orthogonal to t, e = n x t ahead. Beyond the
  * ends of an open front lies a vertex of the parabola through the last three. */
 #include "front.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
 static const double step = 0.125;                      /* of u, for how the frame turns */
 
-static void cross (const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        out[k] = a[m] * b[n] - a[n] * b[m];
-    }
-}
-
-static double dot (const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 static double unit (double *a)
 {
-    double size = sqrt (dot (a, a));
+    double size = sqrt (pg_dot3 (a, a));
     for (int k = 0; k < 3 && size > 0; k++) a[k] /= size;
     return size;
 }
@@ -52,10 +43,10 @@ static void frame_at (const pg_front *f, double u, front_place *out)
         normal[k] = (1 - s) * f->normal[3 * m + k] + s * f->normal[3 * next + k];
     }
     out->speed = unit (t);
-    double along = dot (normal, t);
+    double along = pg_dot3 (normal, t);
     for (int k = 0; k < 3; k++) n[k] = normal[k] - along * t[k];
     unit (n);
-    cross (n, t, e);
+    pg_cross3 (n, t, e);
 }
 
 /* db/ds by differences of the frames on both sides: turn_1 = n'.t, turn_2 = -e'.t, turn_3 = e'.n. */
@@ -66,9 +57,9 @@ void front_at (const pg_front *f, double u, front_place *out)
     frame_at (f, u, out);
     frame_at (f, u - step, &low), frame_at (f, u + step, &high);
     for (int k = 0; k < 9; k++) change[k] = (high.frame[k] - low.frame[k]) / (2 * step * out->speed);
-    out->turn[0] = dot (change + 3, out->frame + 6);
-    out->turn[1] = -dot (change, out->frame + 6);
-    out->turn[2] = dot (change, out->frame + 3);
+    out->turn[0] = pg_dot3 (change + 3, out->frame + 6);
+    out->turn[1] = -pg_dot3 (change, out->frame + 6);
+    out->turn[2] = pg_dot3 (change, out->frame + 3);
 }
 
 double front_gap (const pg_front *f, double u, size_t i)

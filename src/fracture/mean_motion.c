@@ -4,7 +4,7 @@
  * what stresses miss of equilibrium, and a place whose shape functions do not reproduce linear fields strains
  * under it. Least squares over the nodes: linear in the field, and exact for motions of a rigid body. */
 #include "mean_motion.h"
-#include "held_points.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -31,9 +31,19 @@ static int inside (const double *x, size_t dim, const double *low, const double 
     return 1;
 }
 
-static void cross (const double *a, const double *b, double *out)
+/* Does node i, such as one on a crack, see no other one? It stays behind when the body moves. */
+static int is_alone (const pg_problem *p, const pg_state *state, size_t i)
 {
-    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    const pg_family *f = &p->rows[PG_NODES].family;
+    if (p->method->shape_functions && !p->integration->at_nodes) {
+        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, state), p->cloud.x + i * (size_t) p->dim,
+                                              pg_cloud_same (&p->cloud));
+        return on && !on->sided;
+    }
+    if (!f->start) return 0;
+    for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+        if (state->alive[p->first_bond[PG_NODES] + e] && (size_t) f->node[e] != i) return 0;
+    return 1;
 }
 
 /* Mean place and displacement of the nodes in the box, and their spin; returns how many nodes there are. */
@@ -55,7 +65,7 @@ static size_t find (mean_motion *m, const pg_problem *p, const pg_state *state, 
         for (size_t k = 0; k < dim; k++)
             x[k] = c->x[i * dim + k] - m->at[k], u[k] = d[i * stride + k] - m->shift[k],
             square += x[k] * x[k];
-        cross (x, u, l);
+        pg_cross3 (x, u, l);
         for (size_t k = 0; k < 3; k++) {
             L[k] += l[k], J[4*k] += square;
             for (size_t b = 0; b < 3; b++) J[3*k + b] -= x[k] * x[b];
@@ -69,7 +79,7 @@ void mean_motion_at (const mean_motion *m, const double *x, int dim, double *u)
 {
     double away[3] = { 0 }, turned[3];
     for (int k = 0; k < dim; k++) away[k] = x[k] - m->at[k];
-    cross (m->spin, away, turned);
+    pg_cross3 (m->spin, away, turned);
     for (int k = 0; k < dim; k++) u[k] = m->shift[k] + turned[k];
 }
 

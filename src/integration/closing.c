@@ -13,6 +13,7 @@
  *
  * with s = 1 on curved facets and FLAT on flat ones. Faces between cells keep their fluxes. */
 #include "consistent.h"
+#include "perigal/vector.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -34,13 +35,6 @@ typedef struct {
     double A[SIZE * SIZE], r[3][SIZE];
 } closing;
 
-static double length (size_t dim, const double *v)
-{
-    double sum = 0;
-    for (size_t k = 0; k < dim; k++) sum += v[k] * v[k];
-    return sqrt (sum);
-}
-
 /* 1 and the place relative to the centre. */
 static void basis (const closing *l, const double *x, double *q)
 {
@@ -53,7 +47,7 @@ static int is_curved (const pg_faces *f, size_t face)
 {
     size_t dim = (size_t) f->dim, first = f->start[face];
     for (size_t q = first + 1; q < f->start[face + 1]; q++) {
-        double a = length (dim, f->flux + first * dim), b = length (dim, f->flux + q * dim);
+        double a = pg_size (dim, f->flux + first * dim), b = pg_size (dim, f->flux + q * dim);
         for (size_t k = 0; k < dim; k++)
             if (fabs (f->flux[q * dim + k] / b - f->flux[first * dim + k] / a) > 1e-13) return 1;
     }
@@ -78,7 +72,7 @@ static void find_middle (closing *l)
     for (size_t e = c->faces.of[l->cell]; e < c->faces.of[l->cell + 1]; e++) {
         size_t face = (size_t) c->faces.face[e];
         for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++) {
-            l->border += length (l->dim, c->faces.flux + q * l->dim);
+            l->border += pg_size (l->dim, c->faces.flux + q * l->dim);
             for (size_t k = 0; k < l->dim; k++)
                 l->size = fmax (l->size, fabs (c->faces.x[q * l->dim + k] - l->centre[k]));
         }
@@ -100,7 +94,7 @@ static double miss (closing *l)
                s = f->cell[2 * face + 1] < 0 ? weight_of (f, face) : 0;
         for (size_t p = f->start[face]; p < f->start[face + 1]; p++) {
             const double *F = f->flux + p * l->dim;
-            double share = s * length (l->dim, F) / l->border;
+            double share = s * pg_size (l->dim, F) / l->border;
             basis (l, f->x + p * l->dim, q);
             for (size_t a = 0; a < m; a++) {
                 for (size_t b = 0; b < m; b++) l->A[a * m + b] += share * q[a] * q[b];
@@ -139,16 +133,16 @@ static int change (closing *l, double c[3][SIZE], int apply)
         if (f->cell[2 * face + 1] >= 0) continue;
         double s = weight_of (f, face), whole = 0;
         for (size_t p = f->start[face]; p < f->start[face + 1]; p++)
-            whole += length (l->dim, f->flux + p * l->dim);
+            whole += pg_size (l->dim, f->flux + p * l->dim);
         if (apply) l->c->amended[face] = 1;
         for (size_t p = f->start[face]; p < f->start[face + 1]; p++) {
-            double *F = f->flux + p * l->dim, size = length (l->dim, F);
+            double *F = f->flux + p * l->dim, size = pg_size (l->dim, F);
             basis (l, f->x + p * l->dim, q);
             for (size_t k = 0; k < l->dim; k++) {
                 d[k] = 0;
                 for (size_t a = 0; a <= l->dim; a++) d[k] += s * size * q[a] * c[k][a];
             }
-            if (!apply && length (l->dim, d) > MOST * size && whole > NOTHING * l->border) return 1;
+            if (!apply && pg_size (l->dim, d) > MOST * size && whole > NOTHING * l->border) return 1;
             for (size_t k = 0; k < l->dim && apply; k++) F[k] += d[k];
         }
     }

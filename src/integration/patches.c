@@ -379,9 +379,6 @@ done:
 }
 
 /* ---- result -------------------------------------------------------------------------------------------- */
-/* For qsort. */
-static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
-
 /* The nodes that the points of each patch see, ascending; f: those that each point sees. */
 static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
 {
@@ -400,7 +397,8 @@ static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
                 PG_GROW (out->family.node, cap, n + 1);
                 out->family.node[n++] = j;
             }
-        pg_sort (out->family.node + out->family.start[c], n - out->family.start[c], sizeof (int), ascending);
+        pg_sort (out->family.node + out->family.start[c], n - out->family.start[c], sizeof (int),
+                 pg_ascending_ints);
         out->family.start[c + 1] = n;
     }
 done:

@@ -111,12 +111,6 @@ done:
     return status;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    const int *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /* The couplings of function p in the list, rows first[p] .. first[p + 1] - 1 of it: how many different ones,
  * or, node given, which. where (n): numbers up to `mark` mean nothing; left above it for these. */
 static size_t couplings_of (const double *all, const size_t *begin, const size_t *end, size_t wide,
@@ -140,7 +134,7 @@ static void add_row (level *l, size_t p, const double *all, const size_t *begin,
 {
     size_t bb = (size_t) (l->block * l->block), wide = 1 + bb, from = l->start[p],
            m = couplings_of (all, begin, end, wide, from, where, l->node + from);
-    if (m) pg_sort (l->node + from, m, sizeof *l->node, ascending);
+    if (m) pg_sort (l->node + from, m, sizeof *l->node, pg_ascending_ints);
     for (size_t e = from; e < from + m; e++) where[l->node[e]] = e + 1;
     for (const size_t *k = begin; k < end; k++)
         for (size_t e = 0; e < (size_t) all[*k + 1]; e++) {

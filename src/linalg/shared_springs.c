@@ -31,12 +31,6 @@ done:
     return status;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* The rows that any spring has, ascending, each once. */
 static pg_status list_rows (size_t n, const double *all, double **row, size_t *count)
 {
@@ -45,7 +39,7 @@ static pg_status list_rows (size_t n, const double *all, double **row, size_t *c
     PG_ALLOC (*row, n);
     for (size_t at = 0; at < n; at += HEAD + 2 * (size_t) all[at])
         for (size_t k = 0; k < (size_t) all[at]; k++) (*row)[m++] = all[at + HEAD + 2 * k];
-    if (m) pg_sort (*row, m, sizeof **row, ascending);
+    if (m) pg_sort (*row, m, sizeof **row, pg_ascending_numbers);
     for (size_t k = 0; k < m; k++) if (k == 0 || (*row)[k] != (*row)[last - 1]) (*row)[last++] = (*row)[k];
     *count = last;
 done:
@@ -87,7 +81,7 @@ pg_status springs_share (pg_elements *e, const pg_subdomain *part, pg_sparse *wh
     for (size_t at = 0; at < n; at += HEAD + 2 * (size_t) all[at], c++) {
         held[c] = all[at + 1];
         for (const double *q = all + at + HEAD; q < all + at + HEAD + 2 * (size_t) all[at]; q += 2) {
-            const double *found = pg_search (q, row, nrow, sizeof *row, ascending);
+            const double *found = pg_search (q, row, nrow, sizeof *row, pg_ascending_numbers);
             long mine = here (part, block, q[0]);
             put (whole, &i, (size_t) (found - row), q[1]);
             if (mine >= 0) put (&own, &j, (size_t) mine, q[1]);

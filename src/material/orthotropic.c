@@ -7,6 +7,7 @@
  *     Theory of elasticity of an anisotropic body; Ting 1996, chapter 2). Plane stress needs E1, E2, nu12,
  *     G12; plane strain E3, nu13, nu23 as well; a solid all nine. Axis 3 of a plane body is its z. */
 #include "entries.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -139,9 +140,6 @@ static void stiffness (int n, const double c[CONSTANTS], double C[36])
     C[6 * 3 + 3] = c[G12], C[6 * 4 + 4] = c[G23], C[6 * 5 + 5] = c[G13];
 }
 
-/* Length of a vector. */
-static double length (const double *a) { return sqrt (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-
 /* Axes are given by an angle in the plane and by two vectors in space; keys of the other number of
  * dimensions are faults. 0: there are some. */
 static int axes_fit (const pg_material *m, const pg_scene *scene)
@@ -167,14 +165,14 @@ static int read_vectors (const pg_material *m, const pg_scene *scene, double R[9
     for (int k = 0; k < 2; k++) {
         if (pg_scene_given (scene, "materials.%s.%s", m->name, key[k]))
             pg_scene_vector (scene, 3, R + 3 * k, "materials.%s.%s", m->name, key[k]);
-        size[k] = length (R + 3 * k);
+        size[k] = pg_size (3, R + 3 * k);
         if (size[k] > 0) continue;
         fault (scene, m, key[k], "has no direction");
         return 0;
     }
     for (int k = 0; k < 3; k++) R[k] /= size[0], R[3 + k] /= size[1], along += R[k] * R[3 + k];
     for (int k = 0; k < 3; k++) R[3 + k] -= along * R[k];
-    double left = length (R + 3);
+    double left = pg_size (3, R + 3);
     /* What is left of axis 2 is the sine of the angle between the two: below 1e-6 its direction would be
      * rounding. */
     if (!(left > 1e-6)) {

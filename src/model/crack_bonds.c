@@ -17,17 +17,11 @@ static double reach_of (const pg_problem *p)
     return reach;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    size_t p = *(const size_t *) a, q = *(const size_t *) b;
-    return (p > q) - (p < q);
-}
-
 /* Several tips or fronts may advance before the bonds die: those that two of them cut are listed once. */
 static void sort_changes (pg_changes *cut)
 {
     size_t n = 0;
-    pg_sort (cut->bond, cut->n, sizeof *cut->bond, ascending);
+    pg_sort (cut->bond, cut->n, sizeof *cut->bond, pg_ascending_sizes);
     for (size_t i = 0; i < cut->n; i++)
         if (n == 0 || cut->bond[i] != cut->bond[n - 1]) cut->bond[n++] = cut->bond[i];
     cut->n = n;

@@ -6,12 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 pg_status pg_crack_breaks (const pg_problem *p, const double *a, const double *b, size_t *n, double **share)
 {
     pg_status status = PG_OK;
@@ -24,7 +18,7 @@ pg_status pg_crack_breaks (const pg_problem *p, const double *a, const double *b
         PG_GROW (all, cap, count + 2);
         all[count++] = in[0], all[count++] = in[1];
     }
-    pg_sort (all, count, sizeof *all, ascending);
+    pg_sort (all, count, sizeof *all, pg_ascending_numbers);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || (all[i] - all[kept - 1]) * length > 8 * nothing) all[kept++] = all[i];
     all[kept - 1] = 1;

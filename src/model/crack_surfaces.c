@@ -26,11 +26,11 @@ static int bends (const stride *s)
 {
     for (size_t i = 0; i < s->old.n; i++) {
         double behind[3], u[3], v[3], n[3], depth = s->old.offset[i];
-        shift3 (s->old.x + 3*i, s->old.ahead + 3*i, s->old.nrim ? -depth : -2 * depth, behind);
+        pg_shift3 (s->old.x + 3*i, s->old.ahead + 3*i, s->old.nrim ? -depth : -2 * depth, behind);
         for (int k = 0; k < 3; k++)
             u[k] = s->bend[3*i + (size_t) k] - behind[k], v[k] = s->c[3*i + (size_t) k] - behind[k];
-        cross3 (u, v, n);
-        if (size3 (v) > 0 && size3 (n) > BEND * stride_spacing (s, i) * size3 (v)) return 1;
+        pg_cross3 (u, v, n);
+        if (pg_size3 (v) > 0 && pg_size3 (n) > BEND * stride_spacing (s, i) * pg_size3 (v)) return 1;
     }
     return 0;
 }
@@ -65,7 +65,7 @@ static pg_status to_line (stride *s, const double *x, const double *normal)
     pg_status status = PG_OK;
     size_t v = SIZE_MAX;
     for (size_t r = 0; r < s->old.nrim && v == SIZE_MAX; r++)
-        if (apart3 (s->w->vertex + 3 * s->old.rim[r], x) <= s->w->nothing) v = s->old.rim[r];
+        if (pg_distance3 (s->w->vertex + 3 * s->old.rim[r], x) <= s->w->nothing) v = s->old.rim[r];
     if (v == SIZE_MAX) {
         PG_TRY (surfaces_reserve (s->w, s->w->cracks.n, s->w->nvertex + 1));
         v = surfaces_put_vertex (s->w, x);
@@ -85,10 +85,10 @@ static pg_status beyond_end (stride *s, unsigned char meets, const double *end, 
     pg_status status = PG_OK;
     double e[3], out[3], h = pg_problem_spacing_at (s->p, end);
     for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
-    if (meets == PG_MEETS_NOTHING || !unit3 (e)) return PG_OK;
+    if (meets == PG_MEETS_NOTHING || !pg_unit3 (e)) return PG_OK;
     double a = meets == PG_MEETS_SURFACE ? pg_problem_way_out (s->p, end, e, h) : surface_flap * h;
-    shift3 (end, e, a, out);
-    if (meets == PG_MEETS_SURFACE) shift3 (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
+    pg_shift3 (end, e, a, out);
+    if (meets == PG_MEETS_SURFACE) pg_shift3 (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
     PG_TRY (to_line (s, out, normal));
 done:
     return status;
@@ -140,7 +140,8 @@ static pg_status first_rim (stride *s)
     if (s->old.nrim) return PG_OK;
     PG_ALLOC (c, 3 * s->old.n);
     for (size_t i = 0; i < s->old.n; i++)
-        shift3 (s->old.x + 3*i, s->old.ahead + 3*i, -2 * s->old.offset[i] - OVERLAP * stride_spacing (s, i),
+        pg_shift3 (s->old.x + 3*i, s->old.ahead + 3*i,
+                   -2 * s->old.offset[i] - OVERLAP * stride_spacing (s, i),
                c + 3*i);
     PG_TRY (begin_line (s));
     PG_TRY (line_of (s, &s->old, c));
@@ -216,14 +217,15 @@ static pg_status around_edge (stride *s, size_t i, size_t j)
     pg_status status = PG_OK;
     double middle[3], way[3], out[3], h = stride_spacing (s, i);
     const double *a = s->way + 3*i, *b = s->way + 3*j, *x = s->now.x + 3*i, *y = s->now.x + 3*j;
-    if (s->now.meets[i] != PG_MEETS_SURFACE || s->now.meets[j] != PG_MEETS_SURFACE || dot3 (a, b) > SAME_FACE)
+    if (s->now.meets[i] != PG_MEETS_SURFACE || s->now.meets[j] != PG_MEETS_SURFACE || pg_dot3 (a,
+                                                                                               b) > SAME_FACE)
         return PG_OK;
     for (int k = 0; k < 3; k++) middle[k] = 0.5 * (x[k] + y[k]), way[k] = a[k] + b[k];
-    if (!unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
+    if (!pg_unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
     double r = pg_problem_way_out (s->p, middle, way, surface_run_out * h);
-    shift3 (middle, way, r, out);
+    pg_shift3 (middle, way, r, out);
     s->w->area += triangle_area3 (x, out, y);
-    shift3 (out, way, space_beyond (s->p, out, way), out);
+    pg_shift3 (out, way, space_beyond (s->p, out, way), out);
     PG_TRY (to_line (s, out, s->now.normal + 3*i));
 done:
     return status;
@@ -334,7 +336,7 @@ static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, 
         if (!s.shut[i] || s.now.meets[i] != PG_MEETS_CRACK) continue;
         for (size_t g = 0; g < nfront; g++)
             for (size_t j = 0; g != front && w->front[g].open && j < w->front[g].n; j++)
-                if (apart3 (w->front[g].x + 3*j, s.now.x + 3*i) <= surface_met * stride_spacing (&s, i))
+                if (pg_distance3 (w->front[g].x + 3*j, s.now.x + 3*i) <= surface_met * stride_spacing (&s, i))
                     met[start[g] + j] = END_OF + PG_MEETS_CRACK;
     }
 done:

@@ -12,33 +12,8 @@
 #ifndef PG_MODEL_CRACK_SURFACES_H
 #define PG_MODEL_CRACK_SURFACES_H
 #include "model.h"
+#include "perigal/vector.h"
 #include <math.h>
-
-/* ---- small vectors ------------------------------------------------------------------------------------- */
-static inline double dot3 (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
-static inline double size3 (const double *a) { return hypot (hypot (a[0], a[1]), a[2]); }
-static inline double apart3 (const double *a, const double *b)
-{
-    return hypot (hypot (a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-static inline void cross3 (const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        out[k] = a[m]*b[n] - a[n]*b[m];
-    }
-}
-static inline void shift3 (const double *x, const double *e, double d, double *out)
-{
-    for (int k = 0; k < 3; k++) out[k] = x[k] + d * e[k];
-}
-/* Of unit length; 0: it has none. */
-static inline int unit3 (double *a)
-{
-    double s = size3 (a);
-    for (int k = 0; k < 3 && s > 0; k++) a[k] /= s;
-    return s > 0;
-}
 
 /* ---- crack_surfaces_memory.c --------------------------------------------------------------------------- */
 pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices);   /* in all */

@@ -23,7 +23,8 @@ static long beside (const pg_front *f, size_t i, long by)
 static void slope (const pg_front *f, const double *x, size_t i, double *out)
 {
     long a = beside (f, i, -1), b = beside (f, i, 1);
-    double l = a >= 0 ? apart3 (f->x + 3*i, f->x + 3*a) : 0, r = b >= 0 ? apart3 (f->x + 3*i, f->x + 3*b) : 0;
+    double l = a >= 0 ? pg_distance3 (f->x + 3*i, f->x + 3*a) : 0, r = b >= 0 ? pg_distance3 (f->x + 3*i,
+                                                                                              f->x + 3*b) : 0;
     for (int k = 0; k < 3; k++) {
         double left = l > 0 ? (x[3*i + (size_t) k] - x[3*a + k]) / l : 0,
                right = r > 0 ? (x[3*b + k] - x[3*i + (size_t) k]) / r : 0;
@@ -40,7 +41,7 @@ void front_tangent (const pg_front *f, size_t i, double *tangent)
         slope (f, f->x, i ? i - 1 : 1, next);
         for (int k = 0; k < 3; k++) tangent[k] = 2 * tangent[k] - next[k];
     }
-    if (!unit3 (tangent)) cross3 (f->ahead + 3*i, f->normal + 3*i, tangent);
+    if (!pg_unit3 (tangent)) pg_cross3 (f->ahead + 3*i, f->normal + 3*i, tangent);
 }
 
 /* Ahead first, then the normal, which keeps its side: t = e x n. */
@@ -50,19 +51,20 @@ void front_frames (pg_front *f)
         double t[3], n[3], *e = f->ahead + 3*i, *normal = f->normal + 3*i, e0[3];
         front_tangent (f, i, t);
         memcpy (e0, e, sizeof e0);
-        double along = dot3 (e, t);
+        double along = pg_dot3 (e, t);
         for (int k = 0; k < 3; k++) e[k] -= along * t[k];
-        if (!unit3 (e)) memcpy (e, e0, sizeof e0);
-        cross3 (t, e, n);
-        if (dot3 (n, normal) < 0) for (int k = 0; k < 3; k++) n[k] = -n[k];
-        if (unit3 (n)) memcpy (normal, n, sizeof n);
+        if (!pg_unit3 (e)) memcpy (e, e0, sizeof e0);
+        pg_cross3 (t, e, n);
+        if (pg_dot3 (n, normal) < 0) for (int k = 0; k < 3; k++) n[k] = -n[k];
+        if (pg_unit3 (n)) memcpy (normal, n, sizeof n);
     }
 }
 
 double front_length (const pg_front *f)
 {
     double length = 0;
-    for (size_t i = 0; i + !f->closed < f->n; i++) length += apart3 (f->x + 3*i, f->x + 3 * ((i + 1) % f->n));
+    for (size_t i = 0; i + !f->closed < f->n; i++) length += pg_distance3 (f->x + 3*i,
+                                                                           f->x + 3 * ((i + 1) % f->n));
     return length;
 }
 
@@ -75,7 +77,7 @@ static double straightness (const pg_front *f, size_t i)
     if (a < 0 || b < 0) return 1;
     for (size_t k = 0; k < 3; k++)
         u[k] = f->x[3*i + k] - f->x[3 * (size_t) a + k], v[k] = f->x[3 * (size_t) b + k] - f->x[3*i + k];
-    return unit3 (u) && unit3 (v) ? dot3 (u, v) : 1;
+    return pg_unit3 (u) && pg_unit3 (v) ? pg_dot3 (u, v) : 1;
 }
 
 /* A corner turns by much more than its neighbours: small loops turn everywhere. */
@@ -96,7 +98,7 @@ static double spacings_of (const pg_front *f, const pg_problem *p, size_t i)
 {
     const double *a = f->x + 3*i, *b = f->x + 3 * ((i + 1) % f->n);
     double middle[3] = { 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]) };
-    return apart3 (a, b) / pg_problem_spacing_at (p, middle);
+    return pg_distance3 (a, b) / pg_problem_spacing_at (p, middle);
 }
 
 /* The vertices of the stretch from corner `first` over m segments, but for its last one: as they are, or
@@ -164,7 +166,7 @@ static size_t spots_of_loop (const pg_front *f, const pg_problem *p, spot *out, 
 static void value_at (const pg_front *f, const double *x, spot q, double *out)
 {
     size_t i = q.from, j = (i + 1) % f->n;
-    double a[3], b[3], t = q.t, l = apart3 (f->x + 3*i, f->x + 3*j);
+    double a[3], b[3], t = q.t, l = pg_distance3 (f->x + 3*i, f->x + 3*j);
     if (t == 0 || !(l > 0)) { memcpy (out, x + 3*i, 3 * sizeof *out); return; }
     /* beyond a corner the line goes on otherwise: its own direction counts there */
     if (is_corner (f, i)) for (size_t k = 0; k < 3; k++) a[k] = (x[3*j + k] - x[3*i + k]) / l;
@@ -193,7 +195,7 @@ static pg_status move_to (pg_front *f, double **c, const spot *q, size_t n)
             g.normal[3*m + k] = (1 - t) * f->normal[3*i + k] + t * f->normal[3*j + k];
             g.ahead[3*m + k] = (1 - t) * f->ahead[3*i + k] + t * f->ahead[3*j + k];
         }
-        unit3 (g.normal + 3*m), unit3 (g.ahead + 3*m);
+        pg_unit3 (g.normal + 3*m), pg_unit3 (g.ahead + 3*m);
         g.offset[m] = (1 - t) * f->offset[i] + t * f->offset[j];
         g.grown[m] = (1 - t) * f->grown[i] + t * f->grown[j];
         g.meets[m] = t == 0 ? f->meets[i] : t == 1 ? f->meets[j] : PG_MEETS_NOTHING;

@@ -52,10 +52,10 @@ double space_beyond (const pg_problem *p, const double *x, const double *e)
 static double ray_to_crack (const pg_crack *c, const double *x, const double *e, double limit, double h)
 {
     const double *o = c->kind == PG_CRACK_DISC ? c->centre : c->vertex;
-    double slope = dot3 (c->normal, e), w[3], place[3];
+    double slope = pg_dot3 (c->normal, e), w[3], place[3];
     if (!(fabs (slope) > 1e-6)) return INFINITY;
     for (int k = 0; k < 3; k++) w[k] = o[k] - x[k];
-    double r = dot3 (c->normal, w) / slope;
+    double r = pg_dot3 (c->normal, w) / slope;
     if (!(r > own * h && r <= limit)) return INFINITY;
     for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
     pg_crack whole = *c;
@@ -82,9 +82,9 @@ static double nearest_of (const double *a, const double *b, const double *x, dou
 {
     double t[3], v[3];
     for (int k = 0; k < 3; k++) t[k] = b[k] - a[k], v[k] = x[k] - a[k];
-    double size = dot3 (t, t), s = size > 0 ? fmin (1, fmax (0, dot3 (t, v) / size)) : 0;
+    double size = pg_dot3 (t, t), s = size > 0 ? fmin (1, fmax (0, pg_dot3 (t, v) / size)) : 0;
     for (int k = 0; k < 3; k++) place[k] = a[k] + s * t[k];
-    return apart3 (place, x);
+    return pg_distance3 (place, x);
 }
 
 /* Do two segments of one front lie beside each other along it, or show the same way? */
@@ -92,8 +92,8 @@ static int same_stretch (const pg_front *f, size_t i, size_t j, size_t next)
 {
     size_t ring = i > j ? i - j : j - i;
     if (f->closed && f->n - ring < ring) ring = f->n - ring;
-    return ring < 4 || dot3 (f->ahead + 3*i, f->ahead + 3*j) > 0
-           || dot3 (f->ahead + 3*i, f->ahead + 3*next) > 0;
+    return ring < 4 || pg_dot3 (f->ahead + 3*i, f->ahead + 3*j) > 0
+           || pg_dot3 (f->ahead + 3*i, f->ahead + 3*next) > 0;
 }
 
 /* The place of another front, or of another part of the vertex's own, nearest to `goal`, which lies ahead. */
@@ -109,7 +109,7 @@ static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, con
             if (g == front && same_stretch (f, i, j, next)) continue;
             double d = nearest_of (f->x + 3*j, f->x + 3*next, goal, try);
             for (int k = 0; k < 3; k++) way[k] = try[k] - x[k];
-            if (!(d <= limit && d < best) || !(dot3 (way, e) > 0)) continue;
+            if (!(d <= limit && d < best) || !(pg_dot3 (way, e) > 0)) continue;
             best = d, memcpy (place, try, sizeof try);
         }
     }
@@ -127,11 +127,11 @@ int space_foot (const pg_problem *p, const double *x, const double *e, const dou
         for (int k = 0; k < 3; k++) way[k] = c * e[k] + (side ? 0.5 : -0.5) * u[k];
         double r = pg_problem_way_out (p, x, way, limit);
         if (!(r < limit)) return 0;
-        shift3 (x, way, r, hit[side]);
+        pg_shift3 (x, way, r, hit[side]);
     }
     for (int k = 0; k < 3; k++) along[k] = hit[1][k] - hit[0][k], d[k] = x[k] - hit[0][k];
-    if (!unit3 (along)) return 0;
-    shift3 (hit[0], along, dot3 (d, along), foot);
+    if (!pg_unit3 (along)) return 0;
+    pg_shift3 (hit[0], along, pg_dot3 (d, along), foot);
     return 1;
 }
 
@@ -139,9 +139,9 @@ int space_foot (const pg_problem *p, const double *x, const double *e, const dou
 static int passes_by (const pg_problem *p, const pg_front *f, size_t i, const double *e, double limit)
 {
     double u[3], foot[3], along[3];
-    cross3 (f->ahead + 3*i, f->normal + 3*i, u);
-    if (!unit3 (u)) return 0;
-    return !space_foot (p, f->x + 3*i, e, u, limit, foot, along) || fabs (dot3 (along, e)) > sqrt (0.5);
+    pg_cross3 (f->ahead + 3*i, f->normal + 3*i, u);
+    if (!pg_unit3 (u)) return 0;
+    return !space_foot (p, f->x + 3*i, e, u, limit, foot, along) || fabs (pg_dot3 (along, e)) > sqrt (0.5);
 }
 
 double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
@@ -159,7 +159,7 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
     if (*meets != PG_MEETS_NOTHING) return way;
     memcpy (goal, place, sizeof goal);
     if (to_fronts (w, front, i, e, goal, to_crack * h, place) <= to_crack * h) *meets = PG_MEETS_CRACK;
-    return apart3 (place, x);
+    return pg_distance3 (place, x);
 }
 
 double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,

@@ -57,7 +57,7 @@ static void move (stride *s, const double *d, const double *theta)
             s->now.normal[3*i + (size_t) k] = cos (a) * n[k] - sin (a) * e[k];
         }
         unsigned char meets = PG_MEETS_NOTHING;
-        if (stride_is_end (s, i)) shift3 (s->old.x + 3*i, way, go, x);
+        if (stride_is_end (s, i)) pg_shift3 (s->old.x + 3*i, way, go, x);
         else space_way (s->p, s->w, s->number, i, way, go, &meets, x);
         if (meets != PG_MEETS_NOTHING) stride_shut (s, i, meets);
     }
@@ -70,13 +70,13 @@ static int surface_beside (const stride *s, size_t end, size_t beside, const dou
                            const double *n, double *foot, double *along)
 {
     double t[3], out[3], h = stride_spacing (s, beside);
-    cross3 (e, n, t);
+    pg_cross3 (e, n, t);
     for (int k = 0; k < 3; k++)
         out[k] = s->old.x[3*end + (size_t) k] - s->old.x[3*beside + (size_t) k];
-    if (!unit3 (t)) return 0;
-    if (dot3 (t, out) < 0) for (int k = 0; k < 3; k++) t[k] = -t[k];
+    if (!pg_unit3 (t)) return 0;
+    if (pg_dot3 (t, out) < 0) for (int k = 0; k < 3; k++) t[k] = -t[k];
     if (!space_foot (s->p, from, t, e, FOOT * h, foot, along)) return 0;
-    if (dot3 (along, e) < 0) for (int k = 0; k < 3; k++) along[k] = -along[k];
+    if (pg_dot3 (along, e) < 0) for (int k = 0; k < 3; k++) along[k] = -along[k];
     return 1;
 }
 
@@ -87,16 +87,16 @@ static void along_surface (stride *s, size_t end, size_t beside)
     double foot[3], along[3], out[3], *way = s->way + 3*end;
     const double *from = s->old.x + 3*beside;
     for (size_t k = 0; k < 3; k++) out[k] = s->old.x[3*end + k] - from[k];
-    if (s->old.meets[end] != PG_MEETS_SURFACE || !unit3 (out)) return;
+    if (s->old.meets[end] != PG_MEETS_SURFACE || !pg_unit3 (out)) return;
     if (surface_beside (s, end, beside, from, s->old.ahead + 3*beside, s->old.normal + 3*beside, foot,
                         along)) {
-        double side = dot3 (along, way) < 0 ? -1 : 1;
+        double side = pg_dot3 (along, way) < 0 ? -1 : 1;
         for (int k = 0; k < 3; k++) way[k] = side * along[k];
         return;
     }
-    double inward = fmin (0, dot3 (way, out));
+    double inward = fmin (0, pg_dot3 (way, out));
     for (int k = 0; k < 3; k++) way[k] -= inward * out[k];
-    unit3 (way);
+    pg_unit3 (way);
 }
 
 /* Where the end of a front on the surface goes: towards the place of the surface nearest to its neighbour in
@@ -110,8 +110,8 @@ static int towards_foot (const stride *s, size_t end, size_t beside, double go, 
     if (!surface_beside (s, end, beside, s->now.x + 3*beside, s->way + 3*beside, s->now.normal + 3*beside,
                          foot, along)) return 0;
     for (int k = 0; k < 3; k++) m[k] = foot[k] - was[k];
-    double forward = dot3 (m, along), share = forward > 0 ? fmin (1, 2 * go / forward) : 0;
-    shift3 (was, m, share, x);
+    double forward = pg_dot3 (m, along), share = forward > 0 ? fmin (1, 2 * go / forward) : 0;
+    pg_shift3 (was, m, share, x);
     return 1;
 }
 
@@ -119,24 +119,24 @@ static int towards_foot (const stride *s, size_t end, size_t beside, double go, 
 static void put_back (stride *s, size_t end, size_t beside)
 {
     double *x = s->now.x + 3*end, *from = s->now.x + 3*beside, e[3];
-    double h = stride_spacing (s, beside), own = apart3 (x, s->old.x + 3*end),
-           other = apart3 (from, s->old.x + 3*beside);
+    double h = stride_spacing (s, beside), own = pg_distance3 (x, s->old.x + 3*end),
+           other = pg_distance3 (from, s->old.x + 3*beside);
     unsigned char meets;
     if (s->shut[beside]) {                             /* it goes as far as its neighbour */
         int goes = own > 0 && s->now.meets[end] == PG_MEETS_SURFACE;
         along_surface (s, end, beside);
-        shift3 (s->old.x + 3*end, s->way + 3*end, goes ? other : 0, x);
+        pg_shift3 (s->old.x + 3*end, s->way + 3*end, goes ? other : 0, x);
         stride_shut (s, end, s->now.meets[end]);
         return;
     }
     if (s->old.meets[end] == PG_MEETS_NOTHING || (own == 0 && other == 0)) return;
     if (s->old.meets[end] == PG_MEETS_SURFACE) towards_foot (s, end, beside, fmax (own, other), x);
     for (int k = 0; k < 3; k++) e[k] = x[k] - from[k];
-    double length = size3 (e);
-    if (!unit3 (e)) return;
+    double length = pg_size3 (e);
+    if (!pg_unit3 (e)) return;
     double r = space_end (s->p, s->w, from, e, length + 2 * h, &meets);
     if (meets == PG_MEETS_NOTHING) return;
-    shift3 (from, e, r, x);
+    pg_shift3 (from, e, r, x);
     s->now.meets[end] = meets;
 }
 
@@ -167,20 +167,20 @@ static pg_status fair_run (stride *s, size_t first, size_t m, int loop)
     memcpy (old, s->now.x, 3 * n * sizeof *old);
     for (size_t k = loop ? 0 : 1; k + !loop < m; k++) {
         size_t i = (first + k) % n;
-        double at[5][3], shift[3], t[3], e[3], out[3], d = apart3 (old + 3*i, s->old.x + 3*i);
+        double at[5][3], shift[3], t[3], e[3], out[3], d = pg_distance3 (old + 3*i, s->old.x + 3*i);
         for (long j = 0; j < 5; j++) run_place (old, n, first, m, loop, (long) k + j - 2, at[j]);
         for (int c = 0; c < 3; c++) {
             shift[c] = -(at[0][c] - 4 * at[1][c] + 6 * at[2][c] - 4 * at[3][c] + at[4][c]) / 16;
             t[c] = at[3][c] - at[1][c];
         }
-        if (!unit3 (t) || !(d > 0)) continue;
+        if (!pg_unit3 (t) || !(d > 0)) continue;
         for (int c = 0; c < 3; c++) e[c] = old[3*i + (size_t) c] - s->old.x[3*i + (size_t) c];
-        cross3 (t, e, out);
-        if (!unit3 (out)) continue;
-        double off = dot3 (shift, out);
+        pg_cross3 (t, e, out);
+        if (!pg_unit3 (out)) continue;
+        double off = pg_dot3 (shift, out);
         for (int c = 0; c < 3; c++) shift[c] = off * out[c];
-        double size = size3 (shift), share = fmin (1, d / stride_spacing (s, i));
-        if (size > 0) shift3 (old + 3*i, shift, share * fmin (1, 0.5 * d / size), s->now.x + 3*i);
+        double size = pg_size3 (shift), share = fmin (1, d / stride_spacing (s, i));
+        if (size > 0) pg_shift3 (old + 3*i, shift, share * fmin (1, 0.5 * d / size), s->now.x + 3*i);
     }
 done:
     pg_free (old);
@@ -232,7 +232,7 @@ static void run_out (stride *s, size_t i)
         for (size_t k = 0; k < 3; k++) from[k] += INSIDE * (s->old.x[3*beside + k] - from[k]);
     }
     double r = space_end (s->p, s->w, from, s->way + 3*i, surface_run_out * h, &meets);
-    if (meets != PG_MEETS_NOTHING) shift3 (from, s->way + 3*i, r, s->now.x + 3*i);
+    if (meets != PG_MEETS_NOTHING) pg_shift3 (from, s->way + 3*i, r, s->now.x + 3*i);
     stride_shut (s, i, meets);
 }
 
@@ -260,8 +260,8 @@ static void close_met_here (stride *s)
         for (size_t j = 0; j < n; j++) {
             size_t ring = i > j ? i - j : j - i;
             if (s->old.closed && n - ring < ring) ring = n - ring;
-            if (s->shut[j] || ring < 4 || dot3 (s->old.ahead + 3*i, s->old.ahead + 3*j) > 0
-                || apart3 (s->old.x + 3*j, s->now.x + 3*i) > surface_met * stride_spacing (s, j))
+            if (s->shut[j] || ring < 4 || pg_dot3 (s->old.ahead + 3*i, s->old.ahead + 3*j) > 0
+                || pg_distance3 (s->old.x + 3*j, s->now.x + 3*i) > surface_met * stride_spacing (s, j))
                 continue;
             memcpy (s->now.x + 3*j, s->old.x + 3*j, 3 * sizeof *s->now.x);
             stride_shut (s, j, PG_MEETS_CRACK);
@@ -277,7 +277,7 @@ static const double *rim_at (const stride *s, size_t i, const double *place)
     double least = 0.3 * stride_spacing (s, i);
     for (size_t r = 0; r < s->old.nrim; r++) {
         const double *x = s->w->vertex + 3 * s->old.rim[r];
-        if (apart3 (x, place) <= least) least = apart3 (x, place), best = x;
+        if (pg_distance3 (x, place) <= least) least = pg_distance3 (x, place), best = x;
     }
     return best;
 }
@@ -294,24 +294,24 @@ static void follow (stride *s, size_t i)
 {
     const double *from = s->old.x + 3*i, *to = s->now.x + 3*i, *e = s->old.ahead + 3*i;
     double *way = s->way + 3*i, *c = s->c + 3*i, *bend = s->bend + 3*i, behind[3];
-    double d = apart3 (from, to), before = s->old.offset[i], o;
+    double d = pg_distance3 (from, to), before = s->old.offset[i], o;
     if (d <= s->w->nothing) d = 0;                     /* an end put back where it was: rounding is no way */
     o = fmin (front_offset_at (s->p, to), before + 0.25 * d);
     s->moved[i] = d, s->now.grown[i] += d;
     if (d > 0) for (int k = 0; k < 3; k++) way[k] = (to[k] - from[k]) / d;
     memcpy (s->now.ahead + 3*i, way, 3 * sizeof *way);
-    shift3 (from, e, -before, behind);
+    pg_shift3 (from, e, -before, behind);
     if (s->shut[i]) {
         s->now.offset[i] = 0;
-        shift3 (to, way, overshoot (s, i, way), c);
+        pg_shift3 (to, way, overshoot (s, i, way), c);
         memcpy (bend, from, 3 * sizeof *bend);
         return;
     }
     s->now.offset[i] = o;
-    if (d >= o && d > 0) shift3 (to, way, -o, c), memcpy (bend, from, 3 * sizeof *bend);
+    if (d >= o && d > 0) pg_shift3 (to, way, -o, c), memcpy (bend, from, 3 * sizeof *bend);
     else {
         const double *rim = d > 0 ? NULL : rim_at (s, i, behind);
-        shift3 (from, e, d > 0 ? d - o : -before, c);
+        pg_shift3 (from, e, d > 0 ? d - o : -before, c);
         if (d == 0) s->now.offset[i] = before;
         if (rim) memcpy (c, rim, 3 * sizeof *c);
         memcpy (bend, c, 3 * sizeof *bend);

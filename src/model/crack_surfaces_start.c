@@ -36,8 +36,8 @@ static pg_status read (patch *c, size_t n, const double *x)
         double u[3], v[3];
         for (size_t k = 0; k < 3; k++)
             u[k] = x[3*i + k] - c->middle[k], v[k] = x[3 * ((i + 1) % n) + k] - c->middle[k];
-        cross3 (u, v, turn);
-        sum += 0.5 * dot3 (turn, c->normal);
+        pg_cross3 (u, v, turn);
+        sum += 0.5 * pg_dot3 (turn, c->normal);
     }
     if (!(fabs (sum) > c->w->nothing * c->w->nothing))
         PG_FAIL (PG_E_USAGE, "a crack cannot begin with an area of %g m^2", fabs (sum));
@@ -71,7 +71,7 @@ static void put_vertex (const patch *c, pg_front *f, const double *x, unsigned c
     memcpy (f->x + 3*i, x, 3 * sizeof *x);
     memcpy (f->normal + 3*i, c->normal, 3 * sizeof *x);
     for (size_t k = 0; k < 3; k++) f->ahead[3*i + k] = x[k] - c->middle[k];
-    unit3 (f->ahead + 3*i);
+    pg_unit3 (f->ahead + 3*i);
     f->offset[i] = c->offset, f->grown[i] = 0, f->meets[i] = meets;
 }
 
@@ -91,7 +91,7 @@ static pg_status beyond_end (patch *c, const double *end, const double *beside)
     pg_status status = PG_OK;
     double e[3], out[3];
     for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
-    if (!unit3 (e)) return PG_OK;
+    if (!pg_unit3 (e)) return PG_OK;
     double a = pg_problem_way_out (c->p, end, e, pg_problem_spacing_at (c->p, end));
     for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];
     a += space_beyond (c->p, out, e);
@@ -112,12 +112,13 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
     for (size_t k = 0; k < m; k++) {                   /* but for vertices next to the end itself */
         const double *x = c->x + 3 * ((first + k) % n);
-        if (k > 0 || f.closed || apart3 (x, place) > NEAR_END * pg_problem_spacing_at (c->p, x))
+        if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_problem_spacing_at (c->p, x))
             put_vertex (c, &f, x, PG_MEETS_NOTHING);
     }
     if (!f.closed) {
         leave (c, (first + m - 1) % n, (first + m) % n, place);
-        if (f.n > 2 && apart3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_problem_spacing_at (c->p, place))
+        if (f.n > 2 && pg_distance3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_problem_spacing_at (c->p,
+                                                                                                      place))
             f.n--;
         put_vertex (c, &f, place, PG_MEETS_SURFACE);
     }

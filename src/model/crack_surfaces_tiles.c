@@ -12,8 +12,8 @@ double triangle_area3 (const double *a, const double *b, const double *c)
 {
     double u[3], v[3], n[3];
     for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
-    cross3 (u, v, n);
-    return 0.5 * size3 (n);
+    pg_cross3 (u, v, n);
+    return 0.5 * pg_size3 (n);
 }
 
 size_t surfaces_put_vertex (pg_crack_surfaces *w, const double *x)
@@ -45,10 +45,10 @@ static void put (pg_crack_surfaces *w, const pg_problem *p, size_t a, size_t b, 
     double u[3], v[3], n[3], h = pg_problem_spacing_at (p, x);
     if (a == b || b == c || a == c) return;
     for (int k = 0; k < 3; k++) u[k] = y[k] - x[k], v[k] = z[k] - x[k];
-    cross3 (u, v, n);
-    double longest = fmax (fmax (size3 (u), size3 (v)), apart3 (y, z));
-    if (!(size3 (n) > NO_HEIGHT * h * longest) || !unit3 (n)) return;
-    if (dot3 (n, side) < 0) for (int k = 0; k < 3; k++) n[k] = -n[k];
+    pg_cross3 (u, v, n);
+    double longest = fmax (fmax (pg_size3 (u), pg_size3 (v)), pg_distance3 (y, z));
+    if (!(pg_size3 (n) > NO_HEIGHT * h * longest) || !pg_unit3 (n)) return;
+    if (pg_dot3 (n, side) < 0) for (int k = 0; k < 3; k++) n[k] = -n[k];
     surfaces_put_triangle (w, (size_t[3]) { a, b, c }, n, PG_NO_LENGTH * h, owner);
 }
 
@@ -83,7 +83,7 @@ static void beginning (const pg_crack_surfaces *w, const pg_problem *p, const su
     *first = *start = 0;
     for (size_t i = 0; from->closed && to->closed && i < from->n; i++)
         for (size_t j = 0; j < to->n; j++) {
-            double d = apart3 (w->vertex + 3 * from->vertex[i], w->vertex + 3 * to->vertex[j]);
+            double d = pg_distance3 (w->vertex + 3 * from->vertex[i], w->vertex + 3 * to->vertex[j]);
             if (d > least * (1 + same_length)
                 || (d >= least * (1 - same_length)
                     && nearer_middle (w, p, (size_t[]){ from->vertex[*first], to->vertex[*start] },
@@ -109,7 +109,7 @@ static pg_status shortest_ways (const pg_crack_surfaces *w, const pg_problem *p,
     for (size_t i = 0; i <= last; i++)
         for (size_t j = 0; j <= end; j++) {
             size_t a = at (from, first + i), b = at (to, start + j);
-            double d = apart3 (w->vertex + 3 * a, w->vertex + 3 * b);
+            double d = pg_distance3 (w->vertex + 3 * a, w->vertex + 3 * b);
             int shorter = i > 0 && (j == 0 || sum[j] <= sum[j - 1] * (1 + same_length));
             if (shorter && j > 0 && sum[j - 1] <= sum[j] * (1 + same_length))
                 shorter = nearer_middle (w, p, (size_t[]){ at (from, first + i - 1), b },

@@ -23,7 +23,7 @@ static int put_axis (const double *normal, int k, double direction[][3], int n)
 {
     double *a = direction[n], *b = direction[n + 1];
     for (int c = 0; c < 3; c++) a[c] = (c == k) - normal[k] * normal[c];
-    unit3 (a);
+    pg_unit3 (a);
     for (int c = 0; c < 3; c++) b[c] = -a[c];
     return n + 2;
 }
@@ -68,18 +68,18 @@ static void middle_of (size_t n, const double *x, double *middle, double *normal
     for (int k = 0; k < 3; k++) middle[k] = normal[k] = 0;
     for (size_t i = 0; i < n; i++) {
         const double *a = x + 3*i, *b = x + 3 * ((i + 1) % n);
-        double s = apart3 (a, b);
+        double s = pg_distance3 (a, b);
         for (int k = 0; k < 3; k++) middle[k] += 0.5 * s * (a[k] + b[k]);
         total += s;
     }
     for (int k = 0; k < 3; k++) middle[k] /= total;
     for (size_t i = 0; i < n; i++) {
         double a[3], b[3], c[3];
-        shift3 (x + 3*i, middle, -1, a), shift3 (x + 3 * ((i + 1) % n), middle, -1, b);
-        cross3 (a, b, c);
+        pg_shift3 (x + 3*i, middle, -1, a), pg_shift3 (x + 3 * ((i + 1) % n), middle, -1, b);
+        pg_cross3 (a, b, c);
         for (int k = 0; k < 3; k++) normal[k] += c[k];
     }
-    unit3 (normal);
+    pg_unit3 (normal);
 }
 
 /* How far the line reaches in a direction from its middle: the farthest place where it passes there; -1:
@@ -88,13 +88,13 @@ static double reach (size_t n, const double *x, const double *middle, const doub
                      const double *normal, size_t *from, double *share)
 {
     double side[3], best = -1;
-    cross3 (normal, direction, side);
+    pg_cross3 (normal, direction, side);
     for (size_t i = 0; i < n; i++) {
         double a[3], b[3];
-        shift3 (x + 3*i, middle, -1, a), shift3 (x + 3 * ((i + 1) % n), middle, -1, b);
-        double u = dot3 (a, side), v = dot3 (b, side);
+        pg_shift3 (x + 3*i, middle, -1, a), pg_shift3 (x + 3 * ((i + 1) % n), middle, -1, b);
+        double u = pg_dot3 (a, side), v = pg_dot3 (b, side);
         if ((u >= 0) == (v >= 0)) continue;
-        double t = u / (u - v), r = (1 - t) * dot3 (a, direction) + t * dot3 (b, direction);
+        double t = u / (u - v), r = (1 - t) * pg_dot3 (a, direction) + t * pg_dot3 (b, direction);
         if (r > best) best = r, *from = i, *share = t;
     }
     return best;

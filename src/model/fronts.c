@@ -29,7 +29,7 @@ typedef struct {
 /* Length of edge i of a polygon, from vertex i to the next. */
 static double edge_length (const pg_crack *c, size_t i)
 {
-    return apart3 (c->vertex + 3*i, c->vertex + 3*((i + 1) % c->nvertex));
+    return pg_distance3 (c->vertex + 3*i, c->vertex + 3*((i + 1) % c->nvertex));
 }
 
 static double outline_length (const pg_crack *c)
@@ -49,7 +49,7 @@ static size_t outline_at (const outline *o, double s, double *x, double *e)
     if (c->kind == PG_CRACK_DISC) {
         double f[3], side[3], angle = -2 * pi * s;
         for (int k = 0; k < 3; k++) f[k] = (c->vertex[k] - c->centre[k]) / c->radius;
-        cross3 (c->normal, f, side);
+        pg_cross3 (c->normal, f, side);
         for (int k = 0; k < 3; k++) {
             e[k] = cos (angle) * f[k] + sin (angle) * side[k];
             x[k] = c->centre[k] + c->radius * e[k];
@@ -62,8 +62,8 @@ static size_t outline_at (const outline *o, double s, double *x, double *e)
     const double *a = c->vertex + 3*i, *b = c->vertex + 3*((i + 1) % c->nvertex);
     double along[3], share = fmin (1, way / edge_length (c, i));
     for (int k = 0; k < 3; k++) x[k] = a[k] + share * (b[k] - a[k]), along[k] = b[k] - a[k];
-    cross3 (along, c->normal, e);
-    unit3 (e);
+    pg_cross3 (along, c->normal, e);
+    pg_unit3 (e);
     return i;
 }
 
@@ -143,8 +143,8 @@ static double disc_start (const pg_crack *c)
     size_t parts;
     front_loop_directions (c->normal, direction, &parts);
     for (int k = 0; k < 3; k++) f[k] = (c->vertex[k] - c->centre[k]) / c->radius;
-    cross3 (c->normal, f, side);
-    return -atan2 (dot3 (direction[0], side), dot3 (direction[0], f)) / (2 * pi);
+    pg_cross3 (c->normal, f, side);
+    return -atan2 (pg_dot3 (direction[0], side), pg_dot3 (direction[0], f)) / (2 * pi);
 }
 
 /* How many vertices the rim of a disc has then, a multiple of *parts. */
@@ -271,13 +271,13 @@ static pg_status join (lines *all, double near)
             line *b = &all->line[j];
             if (b == a || b->used || b->closed || a->last != PG_MEETS_CRACK) continue;
             const double *end = a->x + 3 * (a->n - 1);
-            if (b->last == PG_MEETS_CRACK && apart3 (end, b->x + 3 * (b->n - 1)) < near) reverse (b);
-            if (b->first != PG_MEETS_CRACK || !(apart3 (end, b->x) < near)) continue;
+            if (b->last == PG_MEETS_CRACK && pg_distance3 (end, b->x + 3 * (b->n - 1)) < near) reverse (b);
+            if (b->first != PG_MEETS_CRACK || !(pg_distance3 (end, b->x) < near)) continue;
             PG_TRY (append (a, b));
             b->used = 1, j = (size_t) -1;              /* look again from the new end */
         }
         if (!a->used && !a->closed && a->n > 3 && a->first == PG_MEETS_CRACK && a->last == PG_MEETS_CRACK
-            && apart3 (a->x, a->x + 3 * (a->n - 1)) < near)
+            && pg_distance3 (a->x, a->x + 3 * (a->n - 1)) < near)
             a->closed = 1, a->n--;
     }
 done:
@@ -295,8 +295,8 @@ static int is_corner (const line *l, size_t i)
     if (!l->closed && (i == 0 || i + 1 >= l->n)) return 1;
     const double *before = at (l, i + l->n - 1), *here = at (l, i), *after = at (l, i + 1);
     for (int k = 0; k < 3; k++) u[k] = here[k] - before[k], v[k] = after[k] - here[k];
-    unit3 (u), unit3 (v);
-    return dot3 (u, v) < cos (corner);
+    pg_unit3 (u), pg_unit3 (v);
+    return pg_dot3 (u, v) < cos (corner);
 }
 
 static pg_status put_vertex (pg_front *f, const line *l, size_t i, double share)
@@ -309,7 +309,7 @@ static pg_status put_vertex (pg_front *f, const line *l, size_t i, double share)
         f->x[3 * f->n + k] = a[k] + share * (b[k] - a[k]);
         f->normal[3 * f->n + k] = m[k] + share * (n[k] - m[k]);
     }
-    unit3 (f->normal + 3 * f->n);
+    pg_unit3 (f->normal + 3 * f->n);
     f->offset[f->n] = (1 - share) * l->offset[i % l->n] + share * l->offset[(i + 1) % l->n];
     f->grown[f->n] = 0, f->meets[f->n] = PG_MEETS_NOTHING;
     f->n++;
@@ -328,7 +328,7 @@ static pg_status divide (pg_front *f, const line *l, const pg_problem *p, size_t
     for (size_t i = from; i < to; i++) {
         double middle[3];
         for (int k = 0; k < 3; k++) middle[k] = 0.5 * (at (l, i)[k] + at (l, i + 1)[k]);
-        total += apart3 (at (l, i), at (l, i + 1)) / pg_problem_spacing_at (p, middle);
+        total += pg_distance3 (at (l, i), at (l, i + 1)) / pg_problem_spacing_at (p, middle);
         way[i - from + 1] = total;
     }
     size_t n = front_loop_parts (total, parts), i = from;
@@ -353,10 +353,10 @@ static void frame (pg_front *f)
         double t[3], u[3], v[3], *n = f->normal + 3*i, *e = f->ahead + 3*i;
         for (size_t k = 0; k < 3; k++)
             u[k] = f->x[3*i + k] - f->x[3*low + k], v[k] = f->x[3*high + k] - f->x[3*i + k];
-        unit3 (u), unit3 (v);                            /* at corners: half the turn */
+        pg_unit3 (u), pg_unit3 (v);                            /* at corners: half the turn */
         for (int k = 0; k < 3; k++) t[k] = u[k] + v[k];
-        cross3 (n, t, e);
-        unit3 (e);
+        pg_cross3 (n, t, e);
+        pg_unit3 (e);
     }
 }
 

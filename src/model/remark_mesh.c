@@ -3,6 +3,7 @@
  * that hang on the faces of other elements; keys that count the mean spacing where the local one was perhaps
  * meant; interfaces of materials. */
 #include "model.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,16 +22,10 @@ static int by_place (const void *p, const void *q)
     return a->along != b->along ? (a->along < b->along ? -1 : 1) : (a->node > b->node) - (a->node < b->node);
 }
 
-static double apart (const double *a, const double *b)
-{
-    double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return sqrt (x * x + y * y + z * z);
-}
-
 /* Does x lie on the segment a b, away from its ends? */
 static int on_segment (const double *x, const double *a, const double *b)
 {
-    double length = apart (a, b), to_a = apart (x, a), to_b = apart (x, b);
+    double length = pg_distance (3, a, b), to_a = pg_distance (3, x, a), to_b = pg_distance (3, x, b);
     return fmin (to_a, to_b) > rounding * length && to_a + to_b < length * (1 + rounding * rounding);
 }
 
@@ -69,11 +64,11 @@ static int hangs (const pg_mesh *m, const int *corner, int n, int nodes, int nod
     const double *x = m->x + 3 * (size_t) node, *c[4] = { x, x, x, x };
     double size = 0;
     for (int k = 0; k < n; k++) c[k] = m->x + 3 * (size_t) corner[k];
-    for (int k = 1; k < n; k++) size = fmax (size, apart (c[0], c[k]));
+    for (int k = 1; k < n; k++) size = fmax (size, pg_distance (3, c[0], c[k]));
     /* doubled nodes of a seam stand on corners */
-    for (int k = 0; k < n; k++) if (apart (x, c[k]) <= rounding * size) return 0;
+    for (int k = 0; k < n; k++) if (pg_distance (3, x, c[k]) <= rounding * size) return 0;
     for (int k = n; k < nodes; k++)
-        if (apart (x, m->x + 3 * (size_t) corner[k]) <= rounding * size) return 1;
+        if (pg_distance (3, x, m->x + 3 * (size_t) corner[k]) <= rounding * size) return 1;
     if (n == 2) return on_segment (x, c[0], c[1]);
     return in_triangle (x, c[0], c[1], c[2]) || (n == 4 && in_triangle (x, c[0], c[2], c[3]));
 }

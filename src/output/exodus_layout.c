@@ -349,13 +349,6 @@ done:
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
-/* Order of ints for qsort. */
-static int ascending (const void *a, const void *b)
-{
-    int p = *(const int *) a, q = *(const int *) b;
-    return (p > q) - (p < q);
-}
-
 /* Every part has all blocks of the whole, in the same order. */
 static pg_status find_blocks_of_whole (writer *w)
 {
@@ -383,7 +376,7 @@ static pg_status find_blocks (writer *w)
     if (w->l->share) return find_blocks_of_whole (w);
     if (!w->l->cloud->block) goto done;
     memcpy (w->block, w->l->cloud->block, w->n * sizeof *w->block);
-    pg_sort (w->block, w->n, sizeof *w->block, ascending);
+    pg_sort (w->block, w->n, sizeof *w->block, pg_ascending_ints);
     for (size_t i = 1; i < w->n; i++)
         if (w->block[i] != w->block[w->nblock - 1]) w->block[w->nblock++] = w->block[i];
 done:

@@ -99,12 +99,6 @@ void pg_grid_clear (pg_grid *g)
 }
 
 /* ---- 2D ------------------------------------------------------------------------------------------------ */
-static int ascending (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
 /* 1 if the coordinates along an axis are those of no lattice: their phases, 2 pi x / step,
  * spread over the circle (length of the mean unit vector below 0.3), and more than a third of
  * the coordinates differ from each other. Lattices whose points moved a little keep their
@@ -120,7 +114,7 @@ static int spreads (const pg_cloud *cloud, int axis, double *work)
         c += cos (6.283185307179586 * work[i] / step), s += sin (6.283185307179586 * work[i] / step);
     }
     if (hypot (c, s) >= 0.3 * (double) n) return 0;
-    pg_sort (work, n, sizeof *work, ascending);
+    pg_sort (work, n, sizeof *work, pg_ascending_numbers);
     for (size_t i = 1; i < n; i++) own += work[i] - work[i - 1] > 1e-6 * step;
     return 3 * own > n;
 }
@@ -136,7 +130,7 @@ pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
     if (!spreads (cloud, 0, sorted) || !spreads (cloud, 1, sorted)) goto done;
     PG_ALLOC (*spacing, cloud->n);
     for (size_t i = 0; i < cloud->n; i++) sorted[i] = cloud->volume ? cloud->volume[i] : 1;
-    pg_sort (sorted, cloud->n, sizeof *sorted, ascending);
+    pg_sort (sorted, cloud->n, sizeof *sorted, pg_ascending_numbers);
     double middle = sorted[cloud->n / 2];
     for (size_t i = 0; i < cloud->n; i++)
         (*spacing)[i] = cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);

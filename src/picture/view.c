@@ -3,6 +3,7 @@
  * always a parallel projection. Also the reading of sections, directions and file names from
  * text. */
 #include "picture_private.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,18 +22,12 @@ double pg_along (const double *direction, const double *x, int dim)
 static const signed char side_axis[][2] = { { 0, 1 }, { 0, 1 }, { 2, 1 }, { 2, 1 }, { 0, 2 }, { 0, 2 } };
 static const signed char side_sign[][2] = { { 1, 1 }, { -1, 1 }, { 1, 1 }, { -1, 1 }, { 1, -1 }, { 1, 1 } };
 
-/* The vector product c = a x b. */
-static void cross (const double *a, const double *b, double *c)
-{
-    c[0] = a[1] * b[2] - a[2] * b[1], c[1] = a[2] * b[0] - a[0] * b[2], c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* The eye looks along a coordinate axis: the picture has axes, `across` to the right and `up` upwards. */
 static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
 {
     e->axis[0] = across, e->axis[1] = up, e->sign[0] = across_sign, e->sign[1] = up_sign;
     e->right[across] = across_sign, e->up[up] = up_sign;
-    cross (e->right, e->up, e->toward);
+    pg_cross3 (e->right, e->up, e->toward);
     e->framed = 1;
 }
 
@@ -44,10 +39,10 @@ static void look (pg_eye *e, const double *direction)
     double size = sqrt (pg_along (direction, direction, 3)), vertical[3] = { 0, 1, 0 };
     for (int k = 0; k < 3; k++) e->toward[k] = direction[k] / size;
     if (fabs (e->toward[1]) > 0.999) vertical[1] = 0, vertical[2] = e->toward[1] > 0 ? -1 : 1;
-    cross (vertical, e->toward, e->right);
+    pg_cross3 (vertical, e->toward, e->right);
     size = sqrt (pg_along (e->right, e->right, 3));
     for (int k = 0; k < 3; k++) e->right[k] /= size;
-    cross (e->toward, e->right, e->up);
+    pg_cross3 (e->toward, e->right, e->up);
     for (int a = 0; a < 2; a++) {
         const double *v = a ? e->up : e->right;
         e->axis[a] = -1;

@@ -50,13 +50,6 @@ static int torn (const pg_tiles *t, size_t i, size_t j)
     return !sound (t, i, j) && strain_of (t, i, j) > t->limit;
 }
 
-/* Order of doubles for qsort. */
-static int ascending (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
 /* How much of a relative displacement is strain and no crack: three times the value that 95 of 100 pairs
  * of sound neighbours stay below. Where damage is not known, six times that of all pairs, and no less than
  * half a spacing on the picture. */
@@ -77,7 +70,7 @@ static pg_status find_limit (pg_tiles *t)
             strain[m++] = strain_of (t, i, j);
         }
     }
-    if (m) pg_sort (strain, m, sizeof *strain, ascending);
+    if (m) pg_sort (strain, m, sizeof *strain, pg_ascending_numbers);
     double usual = m ? strain[(size_t) (0.95 * (double) (m - 1))] : 0;
     t->limit = t->damage ? fmax (3 * usual, 0.02) : fmax (6 * usual, 0.5);
 done:

@@ -77,12 +77,6 @@ void body_part_way (const pg_problem *p, const body_part *part, const double *m,
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Number of the part of every point, by labels that all ranks agree on. */
 static pg_status number_points (body_parts *out, const pg_system *s)
 {
@@ -101,10 +95,10 @@ static pg_status number_points (body_parts *out, const pg_system *s)
         if (pg_owns (owners, i) && label[i] == (owners ? (double) owners->number[i] : (double) i))
             mine[own++] = label[i];
     PG_TRY (pg_ranks_share (own, mine, &out->n, &all));
-    pg_sort (all, out->n, sizeof *all, ascending);
+    pg_sort (all, out->n, sizeof *all, pg_ascending_numbers);
     PG_ALLOC (out->part, out->n);
     for (size_t i = 0; i < n; i++) {
-        const double *at = pg_search (&label[i], all, out->n, sizeof *all, ascending);
+        const double *at = pg_search (&label[i], all, out->n, sizeof *all, pg_ascending_numbers);
         out->of[i] = at ? (int) (at - all) : 0;
     }
 done:

@@ -109,12 +109,6 @@ static size_t bond_of (const pg_problem *p, const double *key)
     return SIZE_MAX;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    size_t i = *(const size_t *) a, j = *(const size_t *) b;
-    return (i > j) - (i < j);
-}
-
 /* Bonds that their owners have broken in this round die on all ranks that hold them: `changes`, of owned ones
  * so far, gets the others. Every rank asks its own, so that none judges what it does not know to the last
  * bit. */
@@ -141,7 +135,8 @@ static pg_status share_changes (break_loop *b, pg_state *state)
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
         state->alive[bond] = 0, b->changes.bond[b->changes.n++] = bond;
     }
-    if (b->changes.n > own) pg_sort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
+    if (b->changes.n > own) pg_sort (b->changes.bond, b->changes.n, sizeof *b->changes.bond,
+                                     pg_ascending_sizes);
 done:
     pg_free (mine), pg_free (all);
     return status;

@@ -3,14 +3,13 @@
  * the tips of the plane, in a window that rises and falls smoothly. The last one and a half spacings carry
  * too little, as the front of a discretisation is not sharp. */
 #include "contact.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
 /* The window, spacings: behind the vertex, aside along the front, off the plane of the crack there; pieces
  * whose normal leans away by more than this cosine are others. */
 static const double NEXT = 1, LAST = 8, ASIDE = 3, OFF = 1, LEANS = 0.87;
-
-static double dot (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
 
 /* Force of piece k over its area counts in both fields: all of it in one alone, else what it is at the start
  * of the loads that grow, and what these make of it. */
@@ -39,11 +38,11 @@ static void at_vertex (const struct system_contact *c, double h, const double *x
     out->nearest = INFINITY;
     for (size_t k = 0; c->active && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
-        double to[3], side = dot (p->normal, n);
+        double to[3], side = pg_dot3 (p->normal, n);
         int presses = nfield == 1 ? c->force[3*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
         for (int m = 0; m < 3; m++) to[m] = x[m] - p->x[m];
-        double behind = dot (to, e), beside = dot (to, t), off = dot (to, n);
-        if (presses) out->nearest = fmin (out->nearest, fmax (0, sqrt (dot (to, to)) - 0.5 * p->length));
+        double behind = pg_dot3 (to, e), beside = pg_dot3 (to, t), off = pg_dot3 (to, n);
+        if (presses) out->nearest = fmin (out->nearest, fmax (0, sqrt (pg_dot3 (to, to)) - 0.5 * p->length));
         double u = (behind - NEXT * h) / ((LAST - NEXT) * h), v = beside / (ASIDE * h);
         if (!(u > 0 && u < 1 && fabs (v) < 1) || fabs (off) > OFF * h || fabs (side) < LEANS) continue;
         double weight = pow (sin (3.14159265358979323846 * u) * (1 - v * v), 2);

@@ -72,13 +72,6 @@ static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes 
     return status;
 }
 
-/* For qsort. */
-static int ascending (const void *a, const void *b)
-{
-    size_t i = *(const size_t *) a, j = *(const size_t *) b;
-    return (i > j) - (i < j);
-}
-
 /* The events from k on have not happened: their bonds live again, and shape functions are those before. */
 static pg_status revive (pg_solver *s, event_ahead *q, pg_state *state, size_t k)
 {
@@ -91,7 +84,7 @@ static pg_status revive (pg_solver *s, event_ahead *q, pg_state *state, size_t k
         q->undone.bond[q->undone.n++] = q->broken[i].bond;
     }
     if (q->undone.n == 0) return PG_OK;
-    pg_sort (q->undone.bond, q->undone.n, sizeof *q->undone.bond, ascending);
+    pg_sort (q->undone.bond, q->undone.n, sizeof *q->undone.bond, pg_ascending_sizes);
     PG_TRY (refresh (s, state, &q->undone));
 done:
     return status;

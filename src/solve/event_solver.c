@@ -2,6 +2,7 @@
  * The event solver: bases, updates after breaks, blocks of events. Algorithm: event_solver.h;
  * the dense system: event_touched.c. */
 #include "event_solver_data.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -104,13 +105,6 @@ static pg_status remember (event_solver *e, int k)
     e->tX[k] = e->t;
 done:
     return status;
-}
-
-static double dot (size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
 }
 
 pg_status event_solver_base (event_solver *e, double *const *u, double *residual)
@@ -405,7 +399,7 @@ pg_status event_solver_settle (event_solver *e, int which, double enough, double
     PG_TRY (s->force->balance (s->self, e->time[which], u, force, &reference));
     if (T) pg_sparse_multiply_transposed (T, force, delta);
     else memcpy (delta, force, e->ndof * sizeof *delta);
-    *residual = sqrt (dot (e->nred, delta, delta)) / (reference > 0 ? reference : e->scale);
+    *residual = sqrt (pg_dot (e->nred, delta, delta)) / (reference > 0 ? reference : e->scale);
     if (*residual <= enough) goto done;
     memcpy (force, delta, e->nred * sizeof *delta);
     PG_TRY (event_solver_correct (e, force, delta));

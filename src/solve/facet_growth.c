@@ -343,12 +343,6 @@ done:
 }
 
 /* ---- growing ------------------------------------------------------------------------------------------- */
-static int ascending (const void *a, const void *b)
-{
-    size_t i = *(const size_t *) a, k = *(const size_t *) b;
-    return (i > k) - (i < k);
-}
-
 /* Bonds that crossed a facet die: all that are listed, since a further facet sorts its bonds in among
  * them. */
 static void kill_listed (const break_loop *b, pg_state *state)
@@ -451,7 +445,7 @@ done:
 static pg_status log_all (break_loop *b, pg_state *state, double utilisation, double t)
 {
     pg_status status = PG_OK;
-    pg_sort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
+    pg_sort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, pg_ascending_sizes);
     for (size_t i = 0; i < b->changes.n; i++)
         PG_TRY (break_loop_log (b, b->changes.bond[i], 'f', utilisation, t));
     state->broken += (long) b->changes.n;

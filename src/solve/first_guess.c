@@ -18,6 +18,7 @@
  * eps |diag (A) d| beside |y|. In small time steps that is much more than eps. */
 #include "solve.h"
 #include "perigal/ranks.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -27,13 +28,6 @@ static const double least_pivot = 1e-11, above_rounding = 100;
 
 static double *pair_x (const pg_system *s, int k) { return s->guess.x + (size_t) k * s->ndof; }
 static double *pair_y (const pg_system *s, int k) { return s->guess.y + (size_t) k * s->ndof; }
-
-static double dot (const double *a, const double *b, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
 
 void system_guess_free (pg_system *s)
 {
@@ -99,7 +93,7 @@ static double rounding_of (const pg_system *s, const dynamics *dyn, const double
         if (pg_owns (s->problem->cloud.subdomain, i / (size_t) s->components)) sum += part * part;
     }
     size[0] = sum;
-    for (int k = 0; k < n; k++) size[k + 1] = dot (pair_y (s, at[k]), pair_y (s, at[k]), s->ndof);
+    for (int k = 0; k < n; k++) size[k + 1] = pg_dot (s->ndof, pair_y (s, at[k]), pair_y (s, at[k]));
     if (system_is_shared (s) && pg_ranks_sum (PAIRS + 1, size) != PG_OK) return NAN;
     sum = size[0];
     for (int k = 0; k < n; k++) least = fmin (least, size[k + 1]);
@@ -121,9 +115,9 @@ pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
     for (size_t i = 0; i < s->ndof; i++) x[i] = 0, y[i] = s->residual[i];
     for (int k = 1; k <= n; k++) at[n - k] = (g->next - k + PAIRS + 1) % (PAIRS + 1);
     for (int i = 0; i < n; i++) {                      /* of ghosts residuals, and so all y, are 0 */
-        b[i] = dot (pair_x (s, at[i]), s->residual, s->ndof);
+        b[i] = pg_dot (s->ndof, pair_x (s, at[i]), s->residual);
         for (int j = 0; j <= i; j++)
-            G[i][j] = G[j][i] = dot (pair_x (s, at[i]), pair_y (s, at[j]), s->ndof);
+            G[i][j] = G[j][i] = pg_dot (s->ndof, pair_x (s, at[i]), pair_y (s, at[j]));
     }
     if (system_is_shared (s)) PG_TRY (pg_ranks_sum (PAIRS, b));
     if (system_is_shared (s)) PG_TRY (pg_ranks_sum (PAIRS * PAIRS, &G[0][0]));

@@ -6,6 +6,7 @@
  * sum of the sizes of all these forces; where these are next to none (a load that has returned to zero, free
  * strains that nothing hinders) with what the residual is compared with (refinement.c). */
 #include "solve.h"
+#include "perigal/vector.h"
 #include <float.h>
 #include <math.h>
 
@@ -16,8 +17,6 @@ static const double BALANCED = 1e-10;
 
 /* N, N m; size: sum of the sizes of forces; length: diagonal of the body, m. */
 typedef struct { double force[3], moment[3], size, length; } sums;
-
-static double norm (const double *v) { return sqrt (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /* Loads and supports; moments are told about places of their own. */
 static void add_loads (const pg_problem *p, const pg_work_balance *w, sums *s)
@@ -90,14 +89,14 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     all.length = sqrt (square);
     double size = all.size + rounding (s, d) / BALANCED;
     if (!(size > 0)) return;
-    double missed = fmax (norm (all.force), norm (all.moment) / all.length);
+    double missed = fmax (pg_size (3, all.force), pg_size (3, all.moment) / all.length);
     if (missed > BALANCED * size) size = fmax (size, fmax (s->reference, s->borne));
     /* arms of forces that turn with finite displacements are not those of the places at rest */
     pg_statistics *r = s->report;
     r->balances++;
-    r->balance_force = fmax (r->balance_force, norm (all.force) / size);
+    r->balance_force = fmax (r->balance_force, pg_size (3, all.force) / size);
     if (p->method->shape_functions)
-        r->balance_moment = fmax (r->balance_moment, norm (all.moment) / (size * all.length));
+        r->balance_moment = fmax (r->balance_moment, pg_size (3, all.moment) / (size * all.length));
 }
 
 double pg_balance_allowed (const pg_statistics *r, const pg_problem *p)

@@ -22,6 +22,7 @@
  *
  * How far they go: front_ways.c. */
 #include "front_growth.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -57,12 +58,6 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
 static size_t before (size_t i, size_t n, int closed) { return i > 0 ? i - 1 : closed ? n - 1 : i; }
 static size_t after (size_t i, size_t n, int closed) { return i + 1 < n ? i + 1 : closed ? 0 : i; }
 
-static double distance (const double *a, const double *b)
-{
-    return sqrt ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
-                 + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
 /* ---- rise of the surface ------------------------------------------------------------------------------- */
 /* 1: the vertices follow each other along the tangent t = e x n, to which K_III refers; -1: against it. */
 static double runs_along (const pg_front *front)
@@ -96,7 +91,7 @@ static void settle_rises (const pg_front *front, front_vertex *v, double l)
             double diagonal = v[i].width, sum = v[i].width * v[i].way * sin (v[i].kink);
             for (int side = -1; side <= 1; side += 2) {
                 size_t j = side < 0 ? before (i, n, front->closed) : after (i, n, front->closed);
-                double s = distance (front->x + 3*i, front->x + 3*j);
+                double s = pg_distance (3, front->x + 3*i, front->x + 3*j);
                 if (j == i || !(s > 0)) continue;
                 diagonal += l * l / s;
                 double asked = 0.5 * sense * (v[i].slope * v[i].way + v[j].slope * v[j].way) / l;

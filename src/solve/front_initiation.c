@@ -11,6 +11,7 @@
  * fitted by a straight line, and the radius is where both load factors are equal, or the larger one least. */
 #include "front_growth.h"
 #include "hot_spot.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -67,9 +68,6 @@ static double strength_factor (const trial_fields *fields, const double *first, 
     return high;
 }
 
-static double apart (const double *a, const double *b) { return hypot (hypot (a[0] - b[0], a[1] - b[1]),
-                                                                       a[2] - b[2]); }
-
 /* Mean of a field of stresses over node i and those within 1.1 spacings to which its bonds live; nodes that a
  * lattice has put outside the body only continue what is inside. */
 static void mean_stress (const view *v, size_t i, const double *stress, double out[6])
@@ -80,7 +78,7 @@ static void mean_stress (const view *v, size_t i, const double *stress, double o
     memcpy (out, stress + 6*i, 6 * sizeof *out);
     for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
-        if (j == i || apart (p->cloud.x + 3*i, p->cloud.x + 3*j) > reach) continue;
+        if (j == i || pg_distance3 (p->cloud.x + 3*i, p->cloud.x + 3*j) > reach) continue;
         if (!v->state->alive[p->first_bond[PG_NODES] + e]) continue;
         if (!pg_problem_has_body (p, p->cloud.x + 3*j)) continue;
         for (int k = 0; k < 6; k++) out[k] += stress[6*j + (size_t) k];
@@ -98,7 +96,7 @@ static int is_excluded (const view *v, const double *x, double h)
     const pg_front *front = pg_fronts_of_state (p, v->state, &n);
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; front[k].open && i < front[k].n; i++)
-            if (apart (x, front[k].x + 3*i) < HOT_APART * h) return 1;
+            if (pg_distance3 (x, front[k].x + 3*i) < HOT_APART * h) return 1;
     return pg_cracks_touch (pg_state_cracks (p, v->state), x, 1.5 * h) != NULL;
 }
 
@@ -181,7 +179,7 @@ static size_t next_node (const pg_problem *p, const double *factor, size_t n, co
     for (size_t i = 0; i < p->cloud.n; i++) {
         int near = 0;
         for (size_t k = 0; k < n && !near; k++)
-            near = apart (p->cloud.x + 3*i, spot[k].centre) < HOT_APART * spot[k].h;
+            near = pg_distance3 (p->cloud.x + 3*i, spot[k].centre) < HOT_APART * spot[k].h;
         if (!near && isfinite (factor[i]) && (best == p->cloud.n || factor[i] < factor[best])) best = i;
     }
     return best;

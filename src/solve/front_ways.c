@@ -21,16 +21,11 @@
  * join one after the other, each by a row more of a Cholesky factor, until the longest way is l.
  */
 #include "front_growth.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
 static const double power = 8;                         /* p */
-
-static double distance (const double *a, const double *b)
-{
-    return sqrt ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
-                 + (a[2] - b[2]) * (a[2] - b[2]));
-}
 
 /* Half of the way to both neighbours. */
 static void set_widths (const pg_front *front, front_vertex *v)
@@ -38,8 +33,8 @@ static void set_widths (const pg_front *front, front_vertex *v)
     size_t n = front->n;
     for (size_t i = 0; i < n; i++) {
         size_t a = i > 0 ? i - 1 : front->closed ? n - 1 : i, b = i + 1 < n ? i + 1 : front->closed ? 0 : i;
-        v[i].width = 0.5 * (distance (front->x + 3*i, front->x + 3*a)
-                            + distance (front->x + 3*i, front->x + 3*b));
+        v[i].width = 0.5 * (pg_distance (3, front->x + 3*i, front->x + 3*a)
+                            + pg_distance (3, front->x + 3*i, front->x + 3*b));
     }
 }
 
@@ -50,7 +45,7 @@ static void add_front (const pg_front *front, const front_vertex *v, size_t firs
     for (size_t i = 0; i < front->n; i++)
         for (size_t j = 0; j < i; j++) {
             int beside = i - j == 1 || (front->closed && i - j == front->n - 1);
-            double c = distance (front->x + 3*i, front->x + 3*j);
+            double c = pg_distance (3, front->x + 3*i, front->x + 3*j);
             double r = (beside ? 1.5 : 1) * v[i].width * v[j].width / (2 * pi * c * c);
             double *a = R + (first + i) * n + first, *b = R + (first + j) * n + first;
             a[j] -= r, b[i] -= r, a[i] += r, b[j] += r;

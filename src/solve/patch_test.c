@@ -4,6 +4,7 @@
  * the surface, quadrature, modes without energy, rows that bear loads. */
 #include "patch_test_factor.h"
 #include "solve.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,14 +35,6 @@ typedef struct {
 } probe;
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
-/* a . b. */
-static double dot (size_t n, const double *a, const double *b)
-{
-    double s = 0;
-    for (size_t i = 0; i < n; i++) s += a[i] * b[i];
-    return s;
-}
-
 /* Centre of volume, and the root of the mean square distance from it, m: by this length translations,
  * turns and strains are scaled alike. */
 static void find_middle (probe *t)
@@ -253,7 +246,7 @@ static void start (probe *t, const double *strain)
     for (size_t v = 0; v < t->nv && !t->out.held && !t->supported; v++) {
         memset (one, 0, sizeof one), one[v] = 1;
         linear_field (t, one, t->stride, t->x);
-        b[v] = dot (t->ndof, t->x, t->P);
+        b[v] = pg_dot (t->ndof, t->x, t->P);
     }
     int fitted = !t->out.held && !t->supported;
     if (fitted && pg_dense_cholesky ((int) t->nv, A, 1e-14)) memcpy (b, strain, sizeof b);
@@ -303,14 +296,14 @@ static pg_status find_rest (probe *t, double scale, double *energy)
 {
     pg_status status = PG_OK;
     *energy = 0;
-    if (scale > 0 && !(dot (t->ndof, t->r, t->r) > 1e-22 * dot (t->ndof, t->P, t->P))) return PG_OK;
+    if (scale > 0 && !(pg_dot (t->ndof, t->r, t->r) > 1e-22 * pg_dot (t->ndof, t->P, t->P))) return PG_OK;
     if (!t->factor || t->supported) {
         *energy = iterate (t, scale);
         return PG_OK;
     }
     PG_TRY (patch_factor_solve (t->factor, t->r, t->z));
     for (size_t i = 0; i < t->ndof; i++) t->x[i] += t->z[i];
-    *energy = dot (t->ndof, t->r, t->z);
+    *energy = pg_dot (t->ndof, t->r, t->z);
 done:
     return status;
 }
@@ -389,7 +382,7 @@ static void measure_rigid_motions (probe *t)
     for (size_t m = t->nv; m < motions_end (t) && strained > 0; m++) {
         rigid_field (t, m, t->x);
         t->op->apply (t->op->context, t->x, t->q);
-        t->out.rigid = fmax (t->out.rigid, sqrt (fmax (0, dot (t->ndof, t->x, t->q)) / strained));
+        t->out.rigid = fmax (t->out.rigid, sqrt (fmax (0, pg_dot (t->ndof, t->x, t->q)) / strained));
     }
 }
 
@@ -401,7 +394,7 @@ static void measure_rigid_work (probe *t, double volume)
     if (t->out.held || t->supported || !t->p->method->shape_functions) return;
     for (size_t m = t->nv; m < motions_end (t); m++) {
         rigid_field (t, m, t->x);
-        t->out.rigid = fmax (t->out.rigid, fabs (dot (t->ndof, t->x, t->P)) / volume);
+        t->out.rigid = fmax (t->out.rigid, fabs (pg_dot (t->ndof, t->x, t->P)) / volume);
     }
 }
 
@@ -410,7 +403,7 @@ static void find_worst (probe *t)
 {
     double most = -1;
     for (size_t i = 0; i < t->n; i++) {
-        double size = dot (t->dim, t->q + i * t->dim, t->q + i * t->dim);
+        double size = pg_dot (t->dim, t->q + i * t->dim, t->q + i * t->dim);
         if (!(size > most)) continue;
         most = size;
         memcpy (t->out.worst, t->p->cloud.x + i * t->dim, t->dim * sizeof *t->out.worst);
@@ -436,9 +429,9 @@ static pg_status measure_state (probe *t, size_t v)
     for (size_t i = 0; i < t->n; i++) volume += t->p->cloud.volume[i];
     measure_rigid_work (t, volume);
     start (t, strain);
-    PG_TRY (find_rest (t, volume * dot (t->nv, stress, strain), &energy));
+    PG_TRY (find_rest (t, volume * pg_dot (t->nv, stress, strain), &energy));
     linear_field (t, strain, t->stride, t->z);
-    work = dot (t->ndof, t->P, t->z);
+    work = pg_dot (t->ndof, t->P, t->z);
     linear_field (t, strain, t->dim, t->z);
     exact = size_of (t, t->z);
     PG_TRY (t->force->field (t->self, t->state, t->x, "displacement", &components, &unit, t->u));
@@ -448,7 +441,7 @@ static pg_status measure_state (probe *t, size_t v)
     without (t, t->dim, 1, 1, t->q);
     local = size_of (t, t->q);
     error = sqrt ((whole - 0.75 * local) / exact),
-    compliance = t->out.held ? NAN : dot (t->ndof, t->P, t->x) / work - 1;
+    compliance = t->out.held ? NAN : pg_dot (t->ndof, t->P, t->x) / work - 1;
     if (t->supported) error = 0.5 * sqrt (whole / exact), compliance = NAN;
     if (t->rows) error = fmax (error, fabs (compliance));              /* fmax passes NAN by */
     if (t->out.measured && !(error > (1 + 1e-6) * t->out.error) && !isnan (error)) goto done;
@@ -536,7 +529,7 @@ static void measure_unit_strains (probe *t)
         for (size_t w = 0; w < t->nv; w++) {
             one[v] = 0, one[w] = 1;
             linear_field (t, one, t->stride, t->x);
-            t->A[w * t->nv + v] = dot (t->ndof, t->x, t->q);
+            t->A[w * t->nv + v] = pg_dot (t->ndof, t->x, t->q);
             one[w] = 0;
         }
     }

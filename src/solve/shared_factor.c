@@ -31,12 +31,6 @@ struct shared_factor {
 enum { ENTRY = 3 };
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Where each point held is among all in ascending order of their numbers, of which lattices with holes leave
  * some out. */
 static pg_status find_places (struct shared_factor *f, const pg_subdomain *part)
@@ -48,10 +42,10 @@ static pg_status find_places (struct shared_factor *f, const pg_subdomain *part)
     PG_ALLOC (f->place, part->n);
     for (size_t i = 0; i < part->n; i++) if (part->owned[i]) mine[own++] = (double) part->number[i];
     PG_TRY (pg_ranks_share (own, mine, &total, &all));
-    if (total) pg_sort (all, total, sizeof *all, ascending);
+    if (total) pg_sort (all, total, sizeof *all, pg_ascending_numbers);
     for (size_t i = 0; i < part->n; i++) {
         double number = (double) part->number[i];
-        const double *at = pg_search (&number, all, total, sizeof *all, ascending);
+        const double *at = pg_search (&number, all, total, sizeof *all, pg_ascending_numbers);
         if (!at) PG_FAIL (PG_E_FILE, "ranks disagree about their points");
         f->place[i] = (size_t) (at - all);
     }

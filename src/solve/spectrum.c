@@ -2,19 +2,13 @@
  * The largest eigenfrequency, omega^2 = max K x / M x, by a few Lanczos steps on M^-1/2 K M^-1/2: explicit
  * steps are stable up to 2 / omega. */
 #include "solve.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
 enum { STEPS = 16 };
 
 typedef struct { pg_system *s; double *scale, *v[3], *w; } lanczos;
-
-static double dot (size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
 
 /* w = M^-1/2 K M^-1/2 v */
 static void apply (lanczos *l, const double *v)
@@ -32,10 +26,10 @@ static int recur (lanczos *l, double *T)
     for (int k = 0; k < STEPS; k++) {
         double *now = l->v[k % 3], *next = l->v[(k + 1) % 3], *before = l->v[(k + 2) % 3];
         apply (l, now);
-        double alpha = dot (n, l->w, now);
+        double alpha = pg_dot (n, l->w, now);
         T[k * STEPS + k] = alpha;
         for (size_t i = 0; i < n; i++) l->w[i] -= alpha * now[i] + (k ? beta * before[i] : 0);
-        beta = sqrt (dot (n, l->w, l->w));
+        beta = sqrt (pg_dot (n, l->w, l->w));
         if (k + 1 == STEPS || !(beta > 1e-12 * fabs (alpha))) return k + 1;
         T[k * STEPS + k + 1] = T[(k + 1) * STEPS + k] = beta;
         for (size_t i = 0; i < n; i++) next[i] = l->w[i] / beta;
@@ -65,7 +59,7 @@ pg_status pg_solver_fastest (pg_solver *s, const pg_state *state, double *omega)
         seed = seed * 6364136223846793005ul + 1442695040888963407ul;
         l.v[0][i] = (double) (seed >> 40) / 8388608.0 - 1;
     }
-    double size = sqrt (dot (n, l.v[0], l.v[0]));
+    double size = sqrt (pg_dot (n, l.v[0], l.v[0]));
     for (size_t i = 0; i < n; i++) l.v[0][i] /= size;
     int m = recur (&l, T);
     for (int i = 0; i < m; i++) for (int j = 0; j < m; j++) small[i * m + j] = T[i * STEPS + j];

@@ -12,6 +12,7 @@
  * beside penalties, whose shape functions it changes), or where a part comes loose, the cut body is solved
  * anew, and the release is the difference of both potentials, which is also what tests compare with. */
 #include "trial_facet.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -90,12 +91,6 @@ static pg_status cut_stage (trials *w, const pg_changes *cut)
     return s->force->refresh (s->self, w->state, cut);
 }
 
-static int ascending (const void *a, const void *b)
-{
-    size_t x = *(const size_t *) a, y = *(const size_t *) b;
-    return x < y ? -1 : x > y;
-}
-
 /* Brings the caches back to the state. Forces with shape functions evaluate the touched points from the bits
  * as they are; others forget what they had summed and begin anew. */
 static pg_status restore (trials *w, const pg_state *state, size_t n, const pg_changes *cut)
@@ -109,7 +104,7 @@ static pg_status restore (trials *w, const pg_state *state, size_t n, const pg_c
         if (cut[k].n) memcpy (all.bond + all.n, cut[k].bond, cut[k].n * sizeof *all.bond);
         all.n += cut[k].n;
     }
-    pg_sort (all.bond, all.n, sizeof *all.bond, ascending);
+    pg_sort (all.bond, all.n, sizeof *all.bond, pg_ascending_sizes);
     PG_TRY (s->force->refresh (s->self, state, &all));
 done:
     pg_free (all.bond);
@@ -124,13 +119,6 @@ static int has_factor (const trials *w)
     int keeps = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
     return !w->never_columns && keeps && s->linear->factors && system_has_matrix (s)
            && !(s->force->basis && s->force->basis (s->self));
-}
-
-static double dot (size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
 }
 
 /* Entries of K that a stage has changed: the rows of touched nodes were computed anew in the same order, so
@@ -165,12 +153,12 @@ static pg_status compare_forces (trials *w, const trial_fields *f, change *c)
         PG_TRY (s->force->balance (s->self, f->t[a], f->d[a], c->r[a], &reference));
         for (size_t i = 0; i < s->ndof; i++) c->r[a][i] -= w->residual[a][i];
         PG_TRY (s->force->balance (s->self, f->t[a], w->zero, w->after, &reference));
-        for (int b = 0; b < f->n; b++) df[b][a] = dot (s->ndof, f->d[b], w->after)
-                                                  - dot (s->ndof, f->d[b], w->load[a]);
+        for (int b = 0; b < f->n; b++) df[b][a] = pg_dot (s->ndof, f->d[b], w->after)
+                                                  - pg_dot (s->ndof, f->d[b], w->load[a]);
     }
     for (int a = 0, k = 0; a < f->n; a++)
         for (int b = a; b < f->n; b++)
-            c->work[k++] = 0.25 * (dot (s->ndof, f->d[a], c->r[b]) + dot (s->ndof, f->d[b], c->r[a])
+            c->work[k++] = 0.25 * (pg_dot (s->ndof, f->d[a], c->r[b]) + pg_dot (s->ndof, f->d[b], c->r[a])
                                    + df[a][b] + df[b][a]);
 done:
     return status;

@@ -19,13 +19,6 @@ static double error_of (const pg_bench_case *c)
     return isnan (l2) ? c->best.value[PG_TRIAL_LINES] : l2;
 }
 
-/* Order of doubles for qsort. */
-static int ascending (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
 /* Least, median and largest CPU seconds of the repeats of a case; NAN if none came to an end. */
 void pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest)
 {
@@ -34,7 +27,7 @@ void pg_bench_spread (const pg_bench_case *c, double *least, double *median, dou
     *least = *median = *largest = NAN;
     if (n == 0) return;
     memcpy (sorted, c->cpu, n * sizeof *sorted);
-    pg_sort (sorted, n, sizeof *sorted, ascending);
+    pg_sort (sorted, n, sizeof *sorted, pg_ascending_numbers);
     *least = sorted[0], *largest = sorted[n - 1];
     *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
 }

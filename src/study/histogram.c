@@ -9,18 +9,12 @@
 /* Bins of the histogram, most. */
 enum { BINS = 30 };
 
-static int ascending (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
 void pg_spread_of (pg_spread *out, size_t n, double *value)
 {
     double sum = 0, squares = 0;
     size_t m = 0;
     for (size_t k = 0; k < n; k++) if (isfinite (value[k])) value[m++] = value[k], sum += value[m - 1];
-    pg_sort (value, m, sizeof *value, ascending);
+    pg_sort (value, m, sizeof *value, pg_ascending_numbers);
     *out = (pg_spread) { .n = m, .mean = NAN, .deviation = NAN, .least = NAN, .median = NAN, .most = NAN };
     if (m == 0) return;
     out->mean = sum / (double) m;

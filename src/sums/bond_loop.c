@@ -179,20 +179,13 @@ pg_status pg_bond_loop_dilatation (pg_bond_loop *loop, const double *u, double *
     return loop->kind->dilatation (loop->self, u, theta, q);
 }
 
-/* For qsort: of numbers without a sign, so no difference. */
-static int ascending (const void *a, const void *b)
-{
-    size_t x = *(const size_t *) a, y = *(const size_t *) b;
-    return x < y ? -1 : x > y;
-}
-
 /* Broken bonds are appended in ascending order, whatever order threads found them in: the files of a run
  * do not depend on its threads. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
 {
     pg_status status = PG_OK;
     if (n == 0) return PG_OK;
-    pg_sort (bond, n, sizeof *bond, ascending);
+    pg_sort (bond, n, sizeof *bond, pg_ascending_sizes);
     PG_GROW (to->bond, to->cap, to->n + n);
     memcpy (to->bond + to->n, bond, n * sizeof *bond);
     to->n += n;

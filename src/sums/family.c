@@ -7,13 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Order of qsort. */
-static int ascending (const void *a, const void *b)
-{
-    int x = *(const int *) a, y = *(const int *) b;
-    return (x > y) - (x < y);
-}
-
 /* Position of an item in an ascending list, by halving it; n: it is not there. */
 static size_t find (const int *list, size_t n, int item)
 {
@@ -72,7 +65,7 @@ static size_t visit (const walk *w, size_t i, int *node)
         if (node) node[n] = j;
         n++;
     }
-    if (node && !w->sums->ordered) pg_sort (node, n, sizeof *node, ascending);
+    if (node && !w->sums->ordered) pg_sort (node, n, sizeof *node, pg_ascending_ints);
     return n;
 }
 
@@ -221,7 +214,8 @@ static pg_status by_search (pg_family *out, const pg_sums *sums, size_t *dropped
     PG_ALLOC (out->node, out->start[n]);
     PG_TRY (spread (sums, &near, next, out->node));
     for (size_t i = 0; cloud->size && i < n; i++)
-        pg_sort (out->node + out->start[i], out->start[i + 1] - out->start[i], sizeof *out->node, ascending);
+        pg_sort (out->node + out->start[i], out->start[i + 1] - out->start[i], sizeof *out->node,
+                 pg_ascending_ints);
 done:
     pg_free (next);
     pg_family_clear (&near);

@@ -30,13 +30,6 @@ static int alike (const pg_cloud *cloud)
     return 1;
 }
 
-/* For qsort. */
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Coordinate k of all points of the body, ascending; ranks that share it leave that to one of them, the
  * others have none. */
 static pg_status coordinates (const pg_cloud *cloud, int k, size_t *n, double **x)
@@ -50,7 +43,7 @@ static pg_status coordinates (const pg_cloud *cloud, int k, size_t *n, double **
         if (pg_owns (cloud->subdomain, i)) mine[m++] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
     PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &all));
     *x = all, *n = bytes / sizeof **x;
-    if (*n) pg_sort (*x, *n, sizeof **x, ascending);
+    if (*n) pg_sort (*x, *n, sizeof **x, pg_ascending_numbers);
 done:
     pg_free (mine);
     return status;

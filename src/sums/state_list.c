@@ -4,6 +4,7 @@
  * the family. The laws are in law_state.h; theory B6. */
 #include "list.h"
 #include "state.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -20,14 +21,6 @@ static void release (void *self)
     state_list *s = self;
     if (s) pg_free (s->q), pg_free (s->W), pg_free (s->factor), pg_free (s->alpha);
     pg_list_free (s);
-}
-
-/* r^2, m^2. */
-static double squared_length (int dim, const double *xi)
-{
-    double rr = 0;
-    for (int c = 0; c < dim; c++) rr += xi[c] * xi[c];
-    return rr;
 }
 
 /* xi from the places of the points, which on a lattice differ from the lattice's own by rounding */
@@ -59,7 +52,7 @@ static void weigh (state_list *s, size_t i, const unsigned char *counts)
         size_t e = f->start[i] + k, j = (size_t) f->node[e];
         if (counts ? !counts[e] : !pg_list_alive (list, p, k)) continue;
         between (list, i, j, xi);
-        q += w[k * LIST_LANES] * squared_length (list->dim, xi) * list->sums->cloud->volume[j];
+        q += w[k * LIST_LANES] * pg_dot (list->dim, xi, xi) * list->sums->cloud->volume[j];
     }
     s->q[i] = q, s->factor[p] = state_factor (&list->setting, i, q);
     set_record (s, p, state_beta (&list->setting, i, q));
@@ -111,7 +104,7 @@ static void term (const bond_list *list, size_t i, size_t j, const double *unuse
     double xi[3];
     (void) unused;
     between (list, i, j, xi);
-    double w = weight / sqrt (squared_length (list->dim, xi));
+    double w = weight / sqrt (pg_dot (list->dim, xi, xi));
     out[DILATE] = w * V[j], out[PULL] = w * (V[i] * V[j]), out[WEIGHT] = w;
 }
 

@@ -118,13 +118,6 @@ double pg_beam_cut_dilatation (const pg_sums *sums, double dilation)
 }
 
 /* ---- without a lattice --------------------------------------------------------------------------------- */
-/* For qsort. */
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* Of ranks that share the points each gives those that it owns. */
 pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volume, const double *value)
 {
@@ -142,7 +135,7 @@ pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volu
     PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &collected));
     all = collected, m = bytes / sizeof *all;
     if (m) {
-        pg_sort (all, m, sizeof *all, ascending);
+        pg_sort (all, m, sizeof *all, pg_ascending_numbers);
         *out = m % 2 ? all[m / 2] : 0.5 * (all[m / 2 - 1] + all[m / 2]);
     }
     PG_TRY (pg_ranks_sum (1, out));                    /* of one rank, which has collected them */
