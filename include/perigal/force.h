@@ -84,6 +84,9 @@ typedef struct {
     size_t count;
     const unsigned char *left_out;
     int of_unit;
+    /* The largest overlap of the faces of broken bonds, m; nothing else is asked with it, and without a
+     * failure criterion too. */
+    double *overlap;
 } pg_judging;
 /* The worst bonds (pg_judging.over) where the utilisation of all of them is known. */
 pg_status pg_worst_bonds (const pg_problem *problem, const pg_state *state, const double *utilisation,
@@ -214,7 +217,7 @@ typedef struct {
     /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
     const pg_sparse   *(*basis)     (void *self);
     pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them */
-    /* What bonds use of their limits at d (pg_judging). NULL: nothing can break. */
+    /* What bonds use of their limits at d (pg_judging). NULL: there are no bonds. */
     pg_status (*judge) (void *self, const pg_state *state, const double *d, const pg_judging *what);
     /* The work balance of (t, d); known NULL: nothing is. `out` is sized on the first call. NULL: none. */
     pg_status (*work) (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out);
@@ -222,8 +225,6 @@ typedef struct {
      * (Pa), "damage", "error_estimate" (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field) (void *self, const pg_state *state, const double *d, const char *name, int *components,
                         const char **unit, double *value);
-    /* The largest overlap of the faces of broken bonds, m. */
-    double    (*overlap) (void *self, const pg_state *state, const double *d);
     /* What the bonds of the last refresh leave of the body. */
     pg_status (*census)  (void *self, pg_census *out);
     /* Joins the points that carry forces to each other at the last refresh: sets of points (pg_disjoint, n;

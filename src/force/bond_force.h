@@ -137,7 +137,6 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                              double *u, double *stress, double *gradient);
 void      bond_force_join   (void *self, int *parent);
-double    bond_force_overlap (void *self, const pg_state *state, const double *d);
 pg_status bond_force_census (void *self, pg_census *out);
 /* contact of crack faces by the bonds that crossed them (bond_faces.c) */
 pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
@@ -168,7 +167,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .balance = bond_force_balance, .mass = bond_force_mass, .operator_ = bond_force_operator, \
     .basis = bond_force_basis, .impose = bond_force_impose, .judge = bond_force_judge, \
     .work = bond_force_work, \
-    .field = bond_force_field, .overlap = bond_force_overlap, \
+    .field = bond_force_field, \
     .census = bond_force_census, .join = bond_force_join, .loads = bond_force_loads, \
     .revision = bond_force_revision, .sample = bond_force_sample, \
     .motion.balance_and_break = bond_force_balance_and_break, \

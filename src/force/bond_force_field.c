@@ -124,23 +124,6 @@ static void tell_kinds (const bond_force *b, const double *d, const pg_bond_grou
         kind[k] = b->theory->kind_of ? b->theory->kind_of (b, d, group->bond[k]) : usual;
 }
 
-/* Of every bond; criteria of energies are asked for points instead. */
-pg_status bond_force_judge (void *self, const pg_state *state, const double *d, const pg_judging *w)
-{
-    pg_status status = PG_OK;
-    bond_force *b = self;
-    judging s = { b, state, d, w->utilisation, w->factor, w->kind };
-    if (!b->problem->criterion->type)
-        PG_FAIL (PG_E_USAGE, "there is no failure criterion, and so no utilisation");
-    if (w->group) tell_kinds (b, d, w->group, w->kind);
-    else if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
-        PG_TRY (bond_force_energy_utilisation (b, state, d, w->utilisation, w->kind, w->factor));
-    else pg_parallel (b->threads, b->n, judge_points, &s);
-    if (w->over) PG_TRY (pg_worst_bonds (b->problem, state, w->utilisation, w->from, w->top, w->over));
-done:
-    return status;
-}
-
 /* ---- at points ----------------------------------------------------------------------------------------- */
 typedef struct {
     const bond_force *b;
@@ -426,15 +409,35 @@ static void closing_points (void *context, size_t first, size_t last, int thread
 }
 
 /* The largest over points; ranks: over those that are owned. */
-double bond_force_overlap (void *self, const pg_state *state, const double *d)
+static double largest_overlap (bond_force *b, const pg_state *state, const double *d)
 {
-    bond_force *b = self;
     closing w = { b, state, d, b->work };
     double worst = 0;
     pg_parallel (b->threads, b->n, closing_points, &w);
     for (size_t i = 0; i < b->n; i++)
         if (pg_owns (b->problem->cloud.subdomain, i)) worst = fmax (worst, b->work[i]);
     return worst;
+}
+
+/* Of every bond; criteria of energies are asked for points instead. */
+pg_status bond_force_judge (void *self, const pg_state *state, const double *d, const pg_judging *w)
+{
+    pg_status status = PG_OK;
+    bond_force *b = self;
+    judging s = { b, state, d, w->utilisation, w->factor, w->kind };
+    if (w->overlap) {
+        *w->overlap = largest_overlap (b, state, d);
+        return PG_OK;
+    }
+    if (!b->problem->criterion->type)
+        PG_FAIL (PG_E_USAGE, "there is no failure criterion, and so no utilisation");
+    if (w->group) tell_kinds (b, d, w->group, w->kind);
+    else if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
+        PG_TRY (bond_force_energy_utilisation (b, state, d, w->utilisation, w->kind, w->factor));
+    else pg_parallel (b->threads, b->n, judge_points, &s);
+    if (w->over) PG_TRY (pg_worst_bonds (b->problem, state, w->utilisation, w->from, w->top, w->over));
+done:
+    return status;
 }
 
 /* Joins point i with those before it that live bonds hold it to. Most of them lead to its root at once. */

@@ -436,7 +436,6 @@ const pg_force_type pg_force_galerkin = {
     .judge = galerkin_judge_bonds,
     .work = galerkin_work,
     .field = galerkin_field,
-    .overlap = galerkin_overlap,
     .census = galerkin_census, .join = galerkin_join, .loads = galerkin_loads_of,
     .revision = galerkin_revision,
     .assemble = galerkin_assemble,

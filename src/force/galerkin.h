@@ -430,7 +430,6 @@ int galerkin_one_material (const galerkin *g, int set, size_t count, const size_
 pg_status galerkin_gather (void *self, pg_bond_group *group, int *can);
 pg_status galerkin_judge_others (galerkin *g, const pg_state *state, const unsigned char *left_out,
                                  int of_unit, size_t count, const double *d, double *top);
-double galerkin_overlap (void *self, const pg_state *state, const double *d);
 pg_status galerkin_census (void *self, pg_census *out);
 void galerkin_join (void *self, int *parent);
 /* The force's refresh, for who asks before the first one. */

@@ -243,15 +243,6 @@ done:
     return status;
 }
 
-pg_status galerkin_judge_bonds (void *self, const pg_state *state, const double *d, const pg_judging *w)
-{
-    galerkin *g = self;
-    if (w->count) return galerkin_judge_others (g, state, w->left_out, w->of_unit, w->count, d, w->top);
-    if (w->group) return judge_group (g, state, w->group, d, w->utilisation, w->kind, w->factor);
-    if (w->over) return galerkin_worst (g, state, d, w->from, w->utilisation, w->kind, w->top, w->over);
-    return galerkin_utilisation (g, state, d, w->utilisation, w->kind, w->factor);
-}
-
 /* Stretch of a bond xi along a unit vector n by the strain at p and j in the mean, m: n . eps xi. */
 static double elastic_along (const galerkin *g, size_t p, size_t j, const double *xi, const double *n)
 {
@@ -300,9 +291,8 @@ static double overlap_by_bond (const galerkin *g, const pg_state *state, size_t 
  * material on both sides, the largest, m: without contact crack faces may pass through each other, and
  * this says whether they do. Only short node-node bonds (1.5 spacings) are looked at, between ends that
  * still carry stress. */
-double galerkin_overlap (void *self, const pg_state *state, const double *d)
+static double largest_overlap (galerkin *g, const pg_state *state, const double *d)
 {
-    galerkin *g = self;
     const pg_rows *r = &g->rows[PG_NODES];
     size_t dim = (size_t) g->dim;
     double worst = 0;
@@ -387,4 +377,17 @@ pg_status galerkin_census (void *self, pg_census *out)
 done:
     pg_free (parent);
     return status;
+}
+
+pg_status galerkin_judge_bonds (void *self, const pg_state *state, const double *d, const pg_judging *w)
+{
+    galerkin *g = self;
+    if (w->overlap) {
+        *w->overlap = largest_overlap (g, state, d);
+        return PG_OK;
+    }
+    if (w->count) return galerkin_judge_others (g, state, w->left_out, w->of_unit, w->count, d, w->top);
+    if (w->group) return judge_group (g, state, w->group, d, w->utilisation, w->kind, w->factor);
+    if (w->over) return galerkin_worst (g, state, d, w->from, w->utilisation, w->kind, w->top, w->over);
+    return galerkin_utilisation (g, state, d, w->utilisation, w->kind, w->factor);
 }

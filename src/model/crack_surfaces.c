@@ -217,8 +217,8 @@ static pg_status around_edge (stride *s, size_t i, size_t j)
     pg_status status = PG_OK;
     double middle[3], way[3], out[3], h = stride_spacing (s, i);
     const double *a = s->way + 3*i, *b = s->way + 3*j, *x = s->now.x + 3*i, *y = s->now.x + 3*j;
-    if (s->now.meets[i] != PG_MEETS_SURFACE || s->now.meets[j] != PG_MEETS_SURFACE || pg_dot3 (a,
-                                                                                               b) > SAME_FACE)
+    if (s->now.meets[i] != PG_MEETS_SURFACE || s->now.meets[j] != PG_MEETS_SURFACE
+        || pg_dot3 (a, b) > SAME_FACE)
         return PG_OK;
     for (int k = 0; k < 3; k++) middle[k] = 0.5 * (x[k] + y[k]), way[k] = a[k] + b[k];
     if (!pg_unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
@@ -274,7 +274,8 @@ static pg_status divide (stride *s)
     /* the last part of a loop has laid the vertex with which the line begins once more; a line with one
      * vertex twice has other shortest ways across than its mirror image */
     if (loop && s->nline > 1
-        && apart3 (s->w->vertex + 3 * s->line[0], s->w->vertex + 3 * s->line[s->nline - 1]) <= s->w->nothing)
+        && pg_distance3 (s->w->vertex + 3 * s->line[0], s->w->vertex + 3 * s->line[s->nline - 1])
+               <= s->w->nothing)
         s->nline--;
 done:
     pg_front_clear (&part);

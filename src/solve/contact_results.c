@@ -14,7 +14,8 @@ void contact_note_overlap (pg_system *s, const pg_state *state)
     pg_contact_pieces cracks = { 0 };                  /* borrowed: without the pieces of platens */
     if (points) cracks = c->pieces, cracks.n = c->ncrack, cracks.npoint = cracks.first[c->ncrack];
     if (points && pg_contact_overlap (&overlap, &cracks, s->force, s->self, state, state->d) != PG_OK) return;
-    if (!points && s->force->overlap) overlap = s->force->overlap (s->self, state, state->d);
+    if (!points && s->force->judge
+        && s->force->judge (s->self, state, state->d, &(pg_judging){ .overlap = &overlap }) != PG_OK) return;
     s->report->overlap_max = fmax (s->report->overlap_max, overlap);
 }
 

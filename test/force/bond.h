@@ -105,6 +105,13 @@ static inline pg_changes kill_some (bonded *b, size_t nth)
     check_ok (b->force->refresh (b->self, b->state, &c));
     return c;
 }
+/* The largest overlap of the faces of broken bonds, m. */
+static inline double overlap_of (const bonded *b, const double *d)
+{
+    double overlap = NAN;
+    check_ok (b->force->judge (b->self, b->state, d, &(pg_judging){ .overlap = &overlap }));
+    return overlap;
+}
 /* Largest eigenfrequency of K x = omega^2 M x, rad/s, by power iteration: from below */
 static inline double largest_frequency (bonded *b)
 {

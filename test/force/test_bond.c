@@ -205,7 +205,7 @@ static void test_cut (void **unused)
         assert_int_equal (damage[i] > 0, fabs (b.problem->cloud.x[2 * i] - 0.45) < 0.3);
     for (size_t i = 0; i < b.n; i++)
         d[2 * i] = b.problem->cloud.x[2 * i] < 0.45 ? 0 : -0.03, d[2 * i + 1] = 0;
-    check_relative (b.force->overlap (b.self, b.state, d), 0.03, 1e-9);
+    check_relative (overlap_of (&b, d), 0.03, 1e-9);
     pg_free (d), pg_free (r), pg_free (damage);
     unbonded (&b);
 }

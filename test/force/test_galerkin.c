@@ -70,9 +70,9 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
         if ((size_t) r->family.node[e] == p) b.state->alive[b.problem->first_bond[PG_NODES] + e] = 0;
     for (size_t i = 0; i < b.n; i++) d[2*i] = -1e-3 * r->x[2*i];
     check_ok (b.force->refresh (b.self, b.state, NULL));
-    check_absolute (b.force->overlap (b.self, b.state, d) / 1e-4, 0, 1e-9);
+    check_absolute (overlap_of (&b, d) / 1e-4, 0, 1e-9);
     for (size_t i = 0; i < b.n; i++) d[2*i] = 1e-3 * r->x[2*i];
-    check_absolute (b.force->overlap (b.self, b.state, d) / 1e-4, 0, 1e-9);
+    check_absolute (overlap_of (&b, d) / 1e-4, 0, 1e-9);
     pg_free (d);
     unbonded (&b);
 
@@ -82,7 +82,7 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
     r = &b.problem->rows[PG_NODES];
     d = pg_calloc (b.ndof, sizeof *d);
     for (size_t i = 0; i < b.n; i++) d[2*i] = r->x[2*i] > 0.5 ? -2e-3 : 0;
-    check_relative (b.force->overlap (b.self, b.state, d), 2e-3, 1e-9);
+    check_relative (overlap_of (&b, d), 2e-3, 1e-9);
     pg_free (d);
     unbonded (&b);
 }
@@ -119,7 +119,7 @@ static void sliding_faces_do_not_overlap (void **unused)
                 for (size_t a = 0; a < 2; a++)
                     d[i * dim + a] = x[i * dim + 1] > 0.43 + 0.3 * x[i * dim]
                                          ? move[m][0] * t[a] + move[m][1] * n[a] : 0;
-            check_absolute (b.force->overlap (b.self, b.state, d) / 1e-3, move[m][2] / 1e-3, 1e-9);
+            check_absolute (overlap_of (&b, d) / 1e-3, move[m][2] / 1e-3, 1e-9);
         }
         pg_free (d);
         unbonded (&b);
