@@ -255,9 +255,6 @@ typedef struct {
     int       (*describe) (const void *self, size_t line, char *text, size_t size);
     /* 1: has no matrix all the same, for what it was created with. NULL: as matrix says. */
     int       (*matrix_free) (const void *self);
-    /* NULL, or why this force does not go with solvers of these flags (PG_SOLVER_...): a sentence for the
-     * user that ends in what to do, static text. NULL entry: goes with all. */
-    const char *(*refuses) (const pg_problem *problem, unsigned solver);
     pg_force_motion   motion;
     pg_force_surfaces surfaces;
     pg_force_spares   spares;

@@ -241,6 +241,9 @@ typedef struct {
     double    (*support_stiffness) (const pg_problem *problem);
     /* The choices of the method in one line: "rkpm, linear basis, cubic_spline kernel, gauss integration". */
     void      (*words) (const pg_problem *problem, char *text, size_t size);
+    /* NULL, or why this force does not go with solvers of these flags (PG_SOLVER_...): a sentence for the
+     * user that ends in what to do, static text. NULL entry: goes with all. */
+    const char *(*refuses) (const pg_problem *problem, unsigned solver);
 } pg_method;
 /* 1: static systems of so many unknowns are cheaper by conjugate gradients than by a factor (stored rates,
  * bench/equilibrium.c). preconditioned: the force gives the rows that the multilevel preconditioner needs. */

@@ -156,7 +156,6 @@ pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, c
 /* words */
 int         bond_force_describe (const void *self, size_t line, char *text, size_t size);
 int         bond_force_spared   (const void *self, size_t k, char *what, char *why, double *seconds);
-const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
 
 /* Entries of pg_force_type but for `create`; BOND_FORCE_COMMON: without a matrix. */
 #define BOND_FORCE_ENTRIES \
@@ -172,7 +171,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .revision = bond_force_revision, .sample = bond_force_sample, \
     .motion.balance_and_break = bond_force_balance_and_break, \
     .motion.bound = bond_force_bound, \
-    .motion.row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
+    .motion.row_sums = bond_force_row_sums, .describe = bond_force_describe, \
     .spares.couplings = bond_force_couplings, .surfaces.surface = bond_force_surface, \
     .spares.spared = bond_force_spared, .surfaces.faces = bond_force_faces, .surfaces.jump = bond_force_jump
 #endif

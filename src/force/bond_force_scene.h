@@ -35,5 +35,6 @@ void bond_force_words (const pg_problem *problem, char *text, size_t size);
 /* What all of these say about themselves (pg_method). */
 #define BOND_FORCE_METHOD \
     .kernel = "constant", .horizon = 3.015, .iterate_above = BOND_FORCE_ITERATES, \
-    .check_laws = bond_force_check_laws, .words = bond_force_words
+    .check_laws = bond_force_check_laws, .words = bond_force_words, .refuses = bond_force_refuses
+const char *bond_force_refuses (const pg_problem *problem, unsigned solver);
 #endif

@@ -469,8 +469,8 @@ static void check_motion (const pg_problem *problem, const pg_scene *scene)
                             "dynamic needs the density of material %s: give materials.%s.density, or take "
                             "hold",
                             problem->material[i].name, problem->material[i].name);
-    const char *why = force && force->refuses
-                          ? force->refuses (problem, PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY)
+    const char *why = force && force->method.refuses
+                          ? force->method.refuses (problem, PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY)
                           : NULL;
     if (why) pg_scene_fault (scene, "solver.on_instability", "dynamic: %s", why);
 }

@@ -240,14 +240,15 @@ typedef struct { const pg_problem *problem; const pg_force_type *force; } pairin
 static int goes_with (const pg_solver_type *type, const void *context)
 {
     const pairing *with = context;
-    return !with->force->refuses (with->problem, type->flags);
+    return !with->force->method.refuses (with->problem, type->flags);
 }
 
 /* A force may refuse kinds of solvers: then the others are named. */
 static void check_force (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     pairing with = { problem, pg_force_of (problem) };
-    const char *why = with.force && with.force->refuses ? with.force->refuses (problem, o->flags) : NULL;
+    const char *why = with.force && with.force->method.refuses
+                          ? with.force->method.refuses (problem, o->flags) : NULL;
     char others[200];
     if (!why) return;
     solver_names_that (goes_with, &with, others, sizeof others);

@@ -47,7 +47,8 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     s->problem = problem, s->options = *options;
     s->type = pg_solver_find (options->kind);
     if (!s->type) PG_FAIL (PG_E_USAGE, "there is no solver %s", options->kind);
-    const char *why = force->refuses ? force->refuses (problem, s->type->flags) : NULL;
+    const pg_method *method = &force->method;
+    const char *why = method->refuses ? method->refuses (problem, s->type->flags) : NULL;
     if (why) PG_FAIL (PG_E_USAGE, "%s", why);
     s->options.flags = s->type->flags;
     PG_TRY (stages_create (s));
