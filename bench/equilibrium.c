@@ -172,8 +172,8 @@ static pg_status by_factor (job *j)
     PG_ALLOC (b, j->n);
     PG_ALLOC (q, j->n);
     PG_ALLOC (j->exact, j->n);
-    PG_TRY (j->force->assemble (j->self));
-    PG_TRY (pg_sparse_congruence (&A, j->force->matrix (j->self), T));
+    PG_TRY (pg_force_assemble (j->force, j->self, NULL));
+    PG_TRY (pg_sparse_congruence (&A, pg_force_matrix (j->force, j->self), T));
     PG_TRY (cholmod->analyse (&factor, &A, &o));
     PG_TRY (cholmod->factor (factor, &A));
     double t1 = spread_processor (), w1 = pg_seconds ();

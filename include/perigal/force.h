@@ -121,12 +121,12 @@ typedef struct {
     size_t unended;  /* background cells near cracks, but not near tips, that cannot end at the cracks */
 } pg_census;
 
+/* What is asked of the matrix: where it is as it was assembled last, in line with the last refresh, or that
+ * its memory is freed until it is assembled again (a force may keep it). */
+typedef enum { PG_MATRIX_AT_HAND, PG_MATRIX_ASSEMBLED, PG_MATRIX_FREED } pg_matrix_want;
+
 /* Entries for motion. */
 typedef struct {
-    /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every
-     * component. It is that of the bonds alive when it is first asked for, and stays: breaking moves no mass.
-     * NULL: lumped mass only. */
-    pg_status (*mass_matrix) (void *self, const pg_sparse **M);
     /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the
      * caches from now on; they are appended to `broken`, ascending; the caller clears their alive bits and
      * does not refresh. reference may be NULL. NULL entry: utilisation, refresh, balance do. */
@@ -174,8 +174,6 @@ typedef struct {
      * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
      * is good for nothing but `free` from then on. NULL: it has none to give. */
     pg_status (*lend) (void *self, const pg_state *state, pg_problem *problem);
-    /* Frees the matrix; the next assemble makes it anew. NULL: it stays. */
-    void      (*forget_matrix) (void *self);
     /* What shortcuts of the force have spared so far, one at a time: what (96), why (160), seconds; returns 0
      * past the last. NULL: none. */
     int       (*spared)  (const void *self, size_t k, char *what, char *why, double *seconds);
@@ -211,9 +209,14 @@ typedef struct {
     /* residual = loads (t) - internal force (d), boundary terms included; reference: the size it is measured
      * against, N. */
     pg_status (*balance) (void *self, double t, const double *d, double *residual, double *reference);
-    pg_status (*mass)    (void *self, double *mass);                       /* lumped, per dof, kg */
+    /* kg. lumped: of each unknown. consistent: one number for each pair of nodes (upper triangle, n x n), the
+     * same for every component; that of the bonds alive when it is first asked for, and stays: breaking moves
+     * no mass. *consistent NULL: lumped mass only, as of forces without shape functions. NULL: not wanted. */
+    pg_status (*mass)    (void *self, double *lumped, const pg_sparse **consistent);
     const pg_operator *(*operator_) (void *self);                          /* K x, or NULL */
-    const pg_sparse   *(*matrix)    (void *self);  /* K after assemble; or no such entry: matrix-free */
+    /* K at the last refresh (pg_matrix_want). *K NULL: it has none for what it was created with; K->value
+     * NULL: none is assembled. NULL entry: matrix-free. Use pg_force_assemble, pg_force_matrix. */
+    pg_status (*matrix)  (void *self, pg_matrix_want want, const pg_sparse **K);
     /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
     const pg_sparse   *(*basis)     (void *self);
     pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them */
@@ -236,9 +239,6 @@ typedef struct {
     /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every
      * refresh changes them). */
     unsigned long (*revision) (const void *self);
-    /* Brings the matrix in line with the last refresh; before it, or after another refresh, matrix is not
-     * asked for. NULL: refresh does it. */
-    pg_status (*assemble) (void *self);
     /* Displacement (m), stress (Pa) and displacement gradient (the last two NULL: not wanted) at any n places
      * by the force's own shape functions, the bonds being those of the last refresh: places on the two sides
      * of a crack keep their own values. x: n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy
@@ -253,12 +253,14 @@ typedef struct {
     /* Constants and choices in words, one line each, for plans and reports; returns 0 past the last line.
      * NULL: nothing to say. */
     int       (*describe) (const void *self, size_t line, char *text, size_t size);
-    /* 1: has no matrix all the same, for what it was created with. NULL: as matrix says. */
-    int       (*matrix_free) (const void *self);
     pg_force_motion   motion;
     pg_force_surfaces surfaces;
     pg_force_spares   spares;
 } pg_force_type;
+/* Brings K in line with the last refresh. K may be NULL; *K NULL: there is none. */
+pg_status pg_force_assemble (const pg_force_type *force, void *self, const pg_sparse **K);
+/* K as it was assembled last (value NULL: not yet, or freed); NULL: there is none. */
+const pg_sparse *pg_force_matrix (const pg_force_type *force, void *self);
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);
 /* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from

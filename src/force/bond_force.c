@@ -240,9 +240,10 @@ void bond_force_masses (const bond_force *b, double *mass)
     }
 }
 
-pg_status bond_force_mass (void *self, double *mass)
+pg_status bond_force_mass (void *self, double *mass, const pg_sparse **consistent)
 {
-    bond_force_masses (self, mass);
+    if (mass) bond_force_masses (self, mass);
+    if (consistent) *consistent = NULL;
     return PG_OK;
 }
 

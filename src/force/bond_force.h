@@ -104,7 +104,7 @@ size_t bond_force_fields (const void *self, size_t max, pg_field *out);
 pg_status bond_force_refresh (void *self, const pg_state *state, const pg_changes *changes);
 pg_status bond_force_balance (void *self, double t, const double *d, double *residual, double *reference);
 void      bond_force_masses (const bond_force *b, double *mass);
-pg_status bond_force_mass (void *self, double *mass);
+pg_status bond_force_mass (void *self, double *mass, const pg_sparse **consistent);
 const pg_operator *bond_force_operator (void *self);
 const pg_sparse *bond_force_basis (void *self);
 pg_status bond_force_impose (void *self, double t, double *d);
@@ -121,10 +121,7 @@ void bond_force_apply    (void *context, const double *x, double *y);
 void bond_force_diagonal (void *context, double *d);
 /* forces by the linear stretch */
 pg_status bond_force_tangent_loop (bond_force *b, pg_bond_loop **out);
-pg_status bond_force_assemble (void *self);
-void bond_force_forget_matrix (void *self);
-const pg_sparse *bond_force_matrix (void *self);
-int       bond_force_matrix_free (const void *self);  /* 1: dilatations reach further than bonds do */
+pg_status bond_force_matrix (void *self, pg_matrix_want want, const pg_sparse **K);
 pg_status bond_force_row_sums (void *self, double *sum);
 pg_status bond_force_couplings (void *self, pg_couplings *out);
 pg_status bond_force_omega (const bond_force *b, double *omega);
@@ -159,8 +156,7 @@ int         bond_force_spared   (const void *self, size_t k, char *what, char *w
 
 /* Entries of pg_force_type but for `create`; BOND_FORCE_COMMON: without a matrix. */
 #define BOND_FORCE_ENTRIES \
-    BOND_FORCE_COMMON, .matrix = bond_force_matrix, .assemble = bond_force_assemble, \
-    .spares.forget_matrix = bond_force_forget_matrix, .matrix_free = bond_force_matrix_free
+    BOND_FORCE_COMMON, .matrix = bond_force_matrix
 #define BOND_FORCE_COMMON \
     .free = bond_force_free, .fields = bond_force_fields, .refresh = bond_force_refresh, \
     .balance = bond_force_balance, .mass = bond_force_mass, .operator_ = bond_force_operator, \

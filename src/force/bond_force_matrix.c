@@ -409,10 +409,9 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
 }
 
 /* Only columns of points that lost a bond are made again. */
-pg_status bond_force_assemble (void *self)
+static pg_status assemble (bond_force *b)
 {
     pg_status status = PG_OK;
-    bond_force *b = self;
     if (!b->K.row) PG_TRY (create_matrix (b));
     job w = { b, NULL, NULL };
     pg_parallel (b->threads, b->n, make_columns, &w);
@@ -422,13 +421,16 @@ done:
     return status;
 }
 
-void bond_force_forget_matrix (void *self) { pg_sparse_clear (&((bond_force *) self)->K); }
-
-int bond_force_matrix_free (const void *self) { return ((const bond_force *) self)->dilatation != NULL; }
-
-/* NULL until it has been assembled. */
-const pg_sparse *bond_force_matrix (void *self)
+/* None where dilatations reach further than bonds do. */
+pg_status bond_force_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
 {
+    pg_status status = PG_OK;
     bond_force *b = self;
-    return b->K.row ? &b->K : NULL;
+    *K = NULL;
+    if (b->dilatation) return PG_OK;
+    if (want == PG_MATRIX_ASSEMBLED) PG_TRY (assemble (b));
+    if (want == PG_MATRIX_FREED) pg_sparse_clear (&b->K);
+    *K = &b->K;
+done:
+    return status;
 }

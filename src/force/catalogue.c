@@ -39,6 +39,20 @@ const pg_force_type *pg_force_of (const pg_problem *problem)
     return NULL;
 }
 
+pg_status pg_force_assemble (const pg_force_type *force, void *self, const pg_sparse **K)
+{
+    const pg_sparse *own = NULL;
+    pg_status status = force->matrix ? force->matrix (self, PG_MATRIX_ASSEMBLED, &own) : PG_OK;
+    if (K) *K = own;
+    return status;
+}
+
+const pg_sparse *pg_force_matrix (const pg_force_type *force, void *self)
+{
+    const pg_sparse *K = NULL;
+    return force->matrix && force->matrix (self, PG_MATRIX_AT_HAND, &K) == PG_OK ? K : NULL;
+}
+
 /* For choices of keys and messages: "galerkin|bond|...". */
 const char *pg_force_names (void)
 {

@@ -253,14 +253,14 @@ done:
 
 /* Lumped: density times the volume of each node, kg. Volumes of nodes sum up to that of the body, so the
  * mass is right whatever the shape functions. */
-static pg_status galerkin_mass (void *self, double *mass)
+static pg_status galerkin_mass (void *self, double *mass, const pg_sparse **consistent)
 {
     galerkin *g = self;
-    for (size_t i = 0; i < g->n; i++)
-        for (int k = 0; k < g->dim; k++)
-            mass[i * (size_t) g->dim + (size_t) k] = galerkin_material (g, PG_NODES, i)->density
-                                                     * g->problem->cloud.volume[i];
-    return PG_OK;
+    size_t dim = (size_t) g->dim;
+    for (size_t i = 0; mass && i < g->n; i++)
+        for (size_t k = 0; k < dim; k++)
+            mass[i * dim + k] = galerkin_material (g, PG_NODES, i)->density * g->problem->cloud.volume[i];
+    return consistent ? galerkin_consistent_mass (g, consistent) : PG_OK;
 }
 
 static pg_status galerkin_loads_of (void *self, double t, double *P)
@@ -438,13 +438,11 @@ const pg_force_type pg_force_galerkin = {
     .field = galerkin_field,
     .census = galerkin_census, .join = galerkin_join, .loads = galerkin_loads_of,
     .revision = galerkin_revision,
-    .assemble = galerkin_assemble,
     .sample = galerkin_sample,
     .estimate = galerkin_estimate,
-    .motion = { .mass_matrix = galerkin_mass_matrix },
-    .surfaces = { .at_nodes = galerkin_at_nodes, .from_nodes = galerkin_from_nodes,
+        .surfaces = { .at_nodes = galerkin_at_nodes, .from_nodes = galerkin_from_nodes,
                   .surface = galerkin_surface, .jump = jump, .trace = trace },
     .spares = { .balance_lean = galerkin_balance_lean, .share_of = galerkin_share_of,
-                .gather = galerkin_gather, .forget_matrix = galerkin_forget_matrix, .spared = spared,
+                .gather = galerkin_gather, .spared = spared,
                 .lend = galerkin_lend, .change = galerkin_change_of, .elements = galerkin_elements }
 };

@@ -252,10 +252,8 @@ void galerkin_silling_bundle (const galerkin_bundle *bundle);
 pg_status galerkin_operator_create (galerkin *g);
 void galerkin_apply (void *context, const double *x, double *y);
 void galerkin_diagonal (void *context, double *d);
-pg_status galerkin_assemble (void *self);
-void galerkin_forget_matrix (void *self);
-const pg_sparse *galerkin_matrix (void *self);
-pg_status galerkin_mass_matrix (void *self, const pg_sparse **M);
+pg_status galerkin_matrix (void *self, pg_matrix_want want, const pg_sparse **K);
+pg_status galerkin_consistent_mass (galerkin *g, const pg_sparse **M);
 /* rows that the touched points of each set enter */
 void galerkin_mark_stale (galerkin *g, const size_t *count);
 /* change: between `begin` and the end of a refresh every item of K that it touches is subtracted (sign -1)

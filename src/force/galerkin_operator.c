@@ -161,10 +161,9 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
 }
 
 /* Only rows that broken bonds have changed are gathered again. */
-pg_status galerkin_assemble (void *self)
+static pg_status assemble (galerkin *g)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     pg_assembly *known = g->K ? NULL : galerkin_take_stiffness (g);
     int *node = NULL;
     size_t nnode = 0;
@@ -185,18 +184,16 @@ done:
     return status;
 }
 
-/* With its lists. */
-void galerkin_forget_matrix (void *self)
+pg_status galerkin_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
 {
+    static const pg_sparse none = { 0 };
+    pg_status status = PG_OK;
     galerkin *g = self;
-    pg_assembly_free (&g->K);
-}
-
-/* NULL until it has been assembled. */
-const pg_sparse *galerkin_matrix (void *self)
-{
-    galerkin *g = self;
-    return g->K ? pg_assembly_matrix (g->K) : NULL;
+    if (want == PG_MATRIX_ASSEMBLED) PG_TRY (assemble (g));
+    if (want == PG_MATRIX_FREED) pg_assembly_free (&g->K);             /* with its lists */
+    *K = g->K ? pg_assembly_matrix (g->K) : &none;
+done:
+    return status;
 }
 
 /* ---- consistent mass ----------------------------------------------------------------------------------- */
@@ -211,10 +208,9 @@ static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *ou
 }
 
 /* Made once, of the bonds that live then: breaking moves no mass. */
-pg_status galerkin_mass_matrix (void *self, const pg_sparse **M)
+pg_status galerkin_consistent_mass (galerkin *g, const pg_sparse **M)
 {
     pg_status status = PG_OK;
-    galerkin *g = self;
     if (!g->M) {
         pg_assembly_source source = { .seen = &g->sums.family, .context = g, .blocks = mass_blocks };
         PG_TRY (pg_assembly_create (&g->M, g->n, 1, 1, &source));

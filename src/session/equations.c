@@ -168,9 +168,10 @@ static pg_status fill (pg_equations *e, const pg_problem *p, const pg_state *sta
 {
     pg_status status = PG_OK;
     unsigned char *idle = NULL;
+    const pg_sparse *K;
     if (force->refresh) PG_TRY (force->refresh (self, state, NULL));
-    if (force->assemble) PG_TRY (force->assemble (self));
-    PG_TRY (copy_matrix (&e->K, force->matrix (self)));
+    PG_TRY (pg_force_assemble (force, self, &K));
+    PG_TRY (copy_matrix (&e->K, K));
     PG_TRY (find_idle (&idle, &e->K));
     PG_TRY (copy_basis (e, force->basis ? force->basis (self) : NULL, idle));
     PG_TRY (list_free (e));
@@ -193,7 +194,7 @@ pg_status pg_equations_create (pg_equations *out, const pg_problem *problem, con
     if (problem->nplaten)
         PG_FAIL (PG_E_USAGE, "a body between platens has no linear system: contact decides what bears");
     PG_TRY (force->create (&self, problem));
-    if (!force->matrix || (force->matrix_free && force->matrix_free (self)))
+    if (!pg_force_matrix (force, self))
         PG_FAIL (PG_E_USAGE,
                  "%s reaches the neighbours of neighbours and has no matrix: take a force without "
                  "dilatation, or run the scene", force->method.name);

@@ -13,13 +13,13 @@ static const double margin = 1.02;
 static pg_status sum_rows (pg_system *sys, double *sum)
 {
     pg_status status = PG_OK;
-    if (!sys->force->matrix)
+    const pg_sparse *K;
+    PG_TRY (pg_force_assemble (sys->force, sys->self, &K));
+    if (!K)
         PG_FAIL (PG_E_USAGE,
                  "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: "
                  "use relax",
                  sys->force->method.name);
-    if (sys->force->assemble) PG_TRY (sys->force->assemble (sys->self));
-    const pg_sparse *K = sys->force->matrix (sys->self);
     for (size_t j = 0; j < K->ncol; j++)
         for (long q = K->start[j]; q < K->start[j + 1]; q++) {
             size_t i = (size_t) K->row[q];

@@ -124,12 +124,11 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     }
     factors = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
     if (!factors || s->stale) goto done;
-    const pg_sparse *K = s->force->matrix (s->self);
-    const pg_operator *op = K ? NULL : s->force->operator_ (s->self);  /* K went with its factor */
+    const pg_sparse *K = pg_force_matrix (s->force, s->self);
+    const pg_operator *op = K && K->value ? NULL : s->force->operator_ (s->self);  /* K went with its factor */
     if (op) op->diagonal (op->context, e->diagonal);
-    for (size_t i = 0; K && i < e->ndof; i++) e->diagonal[i] = K->value[K->start[i + 1] - 1];
-    e->shift = fmax (s->shift, WEAK_SPRING) * s->mean_diagonal;
-    e->scale = s->reference > 0 ? s->reference : 1;
+    for (size_t i = 0; !op && i < e->ndof; i++) e->diagonal[i] = K->value[K->start[i + 1] - 1];
+    e->shift = fmax (s->shift, 1e-11) * s->mean_diagonal, e->scale = s->reference > 0 ? s->reference : 1;
     for (int c = 0; c < e->cases; c++) memcpy (e->base[c], u[c], e->ndof * sizeof *u[c]);
     PG_TRY (constant_forces (e, e->constant));
     PG_TRY (s->force->spares.change (s->self, &change));      /* the record begins here */
@@ -146,7 +145,7 @@ pg_status event_solver_follow (event_solver *e, double k, double m)
     pg_system *s = e->s;
     pg_stiffness_change change;
     event_solver_drop (e), touched_clear (e);
-    const pg_sparse *K = s->force->matrix (s->self);
+    const pg_sparse *K = pg_force_matrix (s->force, s->self);
     for (size_t i = 0; i < e->ndof; i++) e->diagonal[i] = k * K->value[K->start[i + 1] - 1];
     if (m != 0) system_add_mass_diagonal (s, m, e->diagonal);
     e->k = k, e->shift = 0, e->scale = 1, e->rent = e->green = e->residual = 0;

@@ -9,10 +9,10 @@ pg_status system_mass (pg_system *s, int consistent)
 {
     pg_status status = PG_OK;
     if (!consistent || s->M) return PG_OK;
-    if (!s->force->motion.mass_matrix)
+    if (s->force->mass) PG_TRY (s->force->mass (s->self, NULL, &s->M));
+    if (!s->M)
         PG_FAIL (PG_E_USAGE, "the force %s has no consistent mass: use solver.mass: lumped",
                  s->force->method.name);
-    PG_TRY (s->force->motion.mass_matrix (s->self, &s->M));
 done:
     return status;
 }

@@ -290,7 +290,7 @@ void newmark_read_setting (pg_newmark_options *own, const pg_problem *problem, c
     own->rayleigh_stiffness = pg_scene_number (scene, "%s.rayleigh.stiffness", map);
     own->consistent = strcmp (pg_scene_text (scene, "%s.mass", map), "consistent") == 0;
     snprintf (path, sizeof path, "%s.mass", map);
-    if (own->consistent && force && !force->motion.mass_matrix)
+    if (own->consistent && force && !force->method.shape_functions)
         pg_scene_fault (scene, path, "force: %s has no consistent mass: use lumped", problem->method->name);
     own->alpha = pg_scene_number (scene, "%s.alpha", map);
     own->beta = (1 - own->alpha) * (1 - own->alpha) / 4, own->gamma = 0.5 - own->alpha;

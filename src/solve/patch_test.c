@@ -488,13 +488,13 @@ done:
 static void multiply (void *context, const double *x, double *y)
 {
     const probe *t = context;
-    pg_sparse_multiply (t->force->matrix (t->self), x, y);
+    pg_sparse_multiply (pg_force_matrix (t->force, t->self), x, y);
 }
 
 static void diagonal (void *context, double *d)
 {
     const probe *t = context;
-    const pg_sparse *K = t->force->matrix (t->self);
+    const pg_sparse *K = pg_force_matrix (t->force, t->self);
     for (size_t i = 0; i < t->ndof; i++) d[i] = K->value[K->start[i + 1] - 1];
 }
 

@@ -37,8 +37,7 @@ static int has_matrix (const pg_problem *p, const pg_force_type *force, void *se
     if (p->cloud.regular && p->cloud.n > MOST_ON_LATTICE) return 0;    /* products cost little */
     pg_solve_counts c = pg_solve_count (p);            /* has the run no factor either? */
     if (p->dim > 2 && (!p->method->shape_functions || pg_solve_by_elements (&c, 1, 0, 0))) return 0;
-    if (!force->matrix || !force->assemble || (force->basis && force->basis (self))) return 0;
-    return !force->matrix_free || !force->matrix_free (self);
+    return !(force->basis && force->basis (self)) && pg_force_matrix (force, self);
 }
 
 /* Displacements of unknown `at` in the rigid motions of the body: translations, then turns about the middle
@@ -113,15 +112,16 @@ pg_status patch_factor_create (patch_factor **out, const pg_problem *bare, const
            assembly = reused ? 0 : assembly_cost * (double) bare->first_bond[PG_BOND_SETS];
     size_t n = (size_t) bare->dim * bare->cloud.n, entries;
     pg_linear_options o = { bare->dim, bare->dim, bare->threads, 1e-12, 0 };
+    const pg_sparse *K;
     *out = NULL;
     if (!has_matrix (bare, force, self) || assembly > iterations) return PG_OK;
     PG_ALLOC (f, 1);
     f->linear = pg_linear_first (1, 1);
-    PG_TRY (force->assemble (self));
-    f->K = *force->matrix (self), f->K.value = NULL;
+    PG_TRY (pg_force_assemble (force, self, &K));
+    f->K = *K, f->K.value = NULL;
     entries = (size_t) f->K.start[n];
     PG_ALLOC (f->K.value, entries);
-    memcpy (f->K.value, force->matrix (self)->value, entries * sizeof *f->K.value);
+    memcpy (f->K.value, K->value, entries * sizeof *f->K.value);
     PG_TRY (hold (&f->K, &bare->cloud));
     PG_TRY (pg_linear_analyse (&f->linear, &f->self, &f->K, &o));
     f->linear->info (f->self, &info);

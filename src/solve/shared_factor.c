@@ -68,8 +68,8 @@ static pg_status list_entries (pg_system *s, const struct shared_factor *f, size
 {
     pg_status status = PG_OK;
     size_t b = (size_t) s->components;
-    if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
-    const pg_sparse *K = s->force->matrix (s->self);
+    const pg_sparse *K;
+    PG_TRY (pg_force_assemble (s->force, s->self, &K));
     PG_ALLOC (*out, ENTRY * (size_t) K->start[K->ncol]);
     *n = 0;
     for (size_t j = 0; j < K->ncol; j++)
@@ -126,8 +126,7 @@ static pg_status may (pg_system *s, int *yes)
 {
     pg_status status = PG_OK;
     const pg_subdomain *part = s->problem->cloud.subdomain;
-    double not = !part || !s->force->spares.elements || !s->force->matrix
-                 || (s->force->matrix_free && s->force->matrix_free (s->self))
+    double not = !part || !s->force->spares.elements || !pg_force_matrix (s->force, s->self)
                  || strcmp (s->options->preconditioner, "auto") != 0
                  || part->total * s->components > MOST_UNKNOWNS;
     *yes = 0;

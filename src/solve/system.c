@@ -16,7 +16,7 @@
 static void let_go (pg_system *s)
 {
     if (s->own_diagonal) {
-        const pg_sparse *K = s->force->matrix (s->self);
+        const pg_sparse *K = pg_force_matrix (s->force, s->self);
         for (size_t j = 0; j < s->ndof; j++) K->value[K->start[j + 1] - 1] = s->own_diagonal[j];
     }
     if (s->owned) pg_sparse_clear (&s->A);
@@ -51,8 +51,7 @@ void system_free (pg_system *s)
 int system_has_matrix (const pg_system *s)
 {
     if (system_is_shared (s)) return 0;                /* each rank has its rows, and products with them */
-    if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
-    return s->force->assemble || s->force->matrix (s->self);
+    return pg_force_matrix (s->force, s->self) != NULL;
 }
 /* K as a product straight from the bonds; NULL: the force has none. */
 static const pg_operator *operator_of (const pg_system *s)
@@ -66,7 +65,7 @@ void system_multiply (const pg_system *s, const double *x, double *y)
     const pg_operator *op = operator_of (s);
     if (op && s->whole) system_multiply_shared (s, op, x, y);
     else if (op) op->apply (op->context, x, y);
-    else pg_sparse_multiply (s->force->matrix (s->self), x, y);
+    else pg_sparse_multiply (pg_force_matrix (s->force, s->self), x, y);
 }
 
 /* Asks the force for its unknowns, its masses (kg, lumped) and its constraints, and chooses the linear
@@ -98,7 +97,7 @@ pg_status system_create (pg_system *s)
         if (system_is_shared (s)) PG_ALLOC (s->whole, s->ndof);
     }
     PG_ALLOC (s->touched, s->problem->cloud.n);
-    if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
+    if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass, NULL));
     int automatic = strcmp (s->options->linear, "auto") == 0;
     s->linear = automatic ? pg_linear_usual (1, 1) : pg_linear_find (s->options->linear);
     if (!s->linear) PG_FAIL (PG_E_USAGE, "there is no linear solver %s", s->options->linear);
@@ -258,11 +257,9 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
 static void let_all_go (pg_system *s, const dynamics *dyn)
 {
     let_go (s);
-    if (dyn || s->problem->criterion->type || s->options->plain || s->contact
-        || !s->force->spares.forget_matrix || !operator_of (s))
-        return;
-    s->force->spares.forget_matrix (s->self);
-    s->forgotten = 1;
+    const pg_sparse *K;
+    if (dyn || s->problem->criterion->type || s->options->plain || s->contact || !operator_of (s)) return;
+    s->forgotten = s->force->matrix (s->self, PG_MATRIX_FREED, &K) == PG_OK && !K->value;
 }
 
 /* Assembles K, adds mass and shift, and takes out what constraints eliminate (T' K T). Without constraints
@@ -270,8 +267,8 @@ static void let_all_go (pg_system *s, const dynamics *dyn)
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
-    if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
-    const pg_sparse *K = s->force->matrix (s->self), *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *K, *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    PG_TRY (pg_force_assemble (s->force, s->self, &K));
     pg_sparse full = *K;
     system_remember_diagonal (s, K);
     let_go (s);

@@ -127,8 +127,8 @@ static pg_status compare_matrix (trials *w, change *c)
 {
     pg_status status = PG_OK;
     const pg_system *s = w->system;
-    if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
-    const pg_sparse *K = s->force->matrix (s->self);
+    const pg_sparse *K;
+    PG_TRY (pg_force_assemble (s->force, s->self, &K));
     for (size_t j = 0; j < s->ndof; j++)
         for (long q = K->start[j]; q < K->start[j + 1]; q++) {
             if (K->value[q] == w->K[q]) continue;
@@ -173,8 +173,8 @@ static pg_status compare_stages (trials *w, const pg_state *state, const trial_f
     double reference;
     if (s->stale) PG_TRY (system_factorize (s, NULL));
     s->extra_cost = 0;
-    if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
-    const pg_sparse *K = s->force->matrix (s->self);
+    const pg_sparse *K;
+    PG_TRY (pg_force_assemble (s->force, s->self, &K));
     if (!w->K) PG_ALLOC (w->K, (size_t) K->start[s->ndof]);
     memcpy (w->K, K->value, (size_t) K->start[s->ndof] * sizeof *w->K);
     for (int a = 0; a < f->n; a++) {
@@ -273,7 +273,7 @@ static void fill_matrix (const stage *g, double shift, int all)
 static void find_bare (const stage *g)
 {
     const pg_system *s = g->w->system;
-    const pg_sparse *K = s->force->matrix (s->self);
+    const pg_sparse *K = pg_force_matrix (s->force, s->self);
     for (size_t e = 0; e < g->c->n; e++) {
         long i = g->c->row[e];
         double before = g->w->K[K->start[i + 1] - 1];  /* the diagonal is last in its column */

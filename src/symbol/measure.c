@@ -61,13 +61,14 @@ static size_t middle_of (const pg_cloud *c)
 static pg_status multiply (box *b, const double *x, double *y)
 {
     pg_status status = PG_OK;
+    const pg_sparse *assembled;
     const pg_operator *K = b->force->operator_ ? b->force->operator_ (b->self) : NULL;
     if (K) {
         K->apply (K->context, x, y);
         return PG_OK;
     }
-    if (b->force->assemble) PG_TRY (b->force->assemble (b->self));
-    pg_sparse_multiply (b->force->matrix (b->self), x, y);
+    PG_TRY (pg_force_assemble (b->force, b->self, &assembled));
+    pg_sparse_multiply (assembled, x, y);
 done:
     return status;
 }
@@ -161,8 +162,8 @@ static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
     const pg_sparse *mass = NULL;
     double *x = NULL, largest = 0;
     for (size_t k = 0; k < n * m * m; k++) largest = fmax (largest, fabs (b->answer[k]));
-    if (b->force->motion.mass_matrix) {
-        PG_TRY (b->force->motion.mass_matrix (b->self, &mass));
+    PG_TRY (b->force->mass (b->self, NULL, &mass));
+    if (mass) {
         PG_ALLOC (s->spread, n);
         PG_ALLOC (x, 2 * n);
         x[b->middle] = 1 / (s->material.density * s->volume);
@@ -241,7 +242,7 @@ static pg_status weigh (pg_symbol *s, box *b)
     double *mass = NULL, *workspace = NULL;
     PG_ALLOC (mass, ndof);
     PG_ALLOC (workspace, ndof);
-    PG_TRY (b->force->mass (b->self, mass));
+    PG_TRY (b->force->mass (b->self, mass, NULL));
     for (size_t c = 0; c < m; c++) s->mass[c] = mass[b->middle * m + c];
     PG_TRY (pg_force_bound (b->force, b->self, &b->problem->cloud, ndof, mass, workspace, &s->bound,
                             &s->from));

@@ -125,8 +125,8 @@ static const pg_sparse *stiffness (run *r, int anew)
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     if (anew) check_ok (force->refresh (self, r->state, NULL));
-    check_ok (force->assemble (self));
-    return force->matrix (self);
+    check_ok (pg_force_assemble (force, self, NULL));
+    return pg_force_matrix (force, self);
 }
 
 /* A crack from the left side that grows by facets, along cells and through them: K that is renewed around the

@@ -297,7 +297,7 @@ static void unknowns_of_shape_functions_collide (void **state)
         double *mass = pg_calloc (r.state->ndof, sizeof *mass), start = 0, half = 0, right = 0, off = 0,
                work = 0;
         int kept = 0;
-        check_ok (f->mass (self, mass));
+        check_ok (f->mass (self, mass, NULL));
         for (size_t i = 0; i < r.state->ndof; i += 2)
             if (r.problem->cloud.x[i] < 13) r.state->v[i] = 0.5, start += 0.5 * mass[i], half += mass[i];
         while (!pg_solver_done (r.solver, r.state)) {

@@ -118,7 +118,7 @@ static inline double largest_frequency (bonded *b)
     double *x = random_vector (b->ndof, 11), *y = pg_calloc (b->ndof, sizeof *y),
            *m = pg_calloc (b->ndof, sizeof *m), top = 0;
     const pg_operator *op = b->force->operator_ (b->self);
-    check_ok (b->force->mass (b->self, m));
+    check_ok (b->force->mass (b->self, m, NULL));
     for (int it = 0; it < 300; it++) {
         op->apply (op->context, x, y);
         top = 0;

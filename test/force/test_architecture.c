@@ -101,17 +101,28 @@ static pg_status beam_balance (void *self, double t, const double *d, double *re
     return PG_OK;
 }
 
-static pg_status beam_mass (void *self, double *mass)
+static pg_status beam_mass (void *self, double *mass, const pg_sparse **consistent)
 {
     beam *b = self;
-    for (size_t i = 0; i < b->ndof / 2; i++)
+    if (consistent) *consistent = NULL;
+    for (size_t i = 0; mass && i < b->ndof / 2; i++)
         mass[2 * i] = line_mass * b->problem->cloud.volume[i], mass[2 * i + 1] = 1e-4 * mass[2 * i];
     return PG_OK;
 }
 
 static const pg_operator *beam_operator (void *self) { return &((beam *) self)->op; }
-static const pg_sparse *beam_matrix (void *self) { return &((beam *) self)->K; }
-static const pg_sparse *no_matrix (void *self) { (void) self; return NULL; }
+static pg_status beam_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
+{
+    (void) want;
+    *K = &((beam *) self)->K;
+    return PG_OK;
+}
+static pg_status no_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
+{
+    (void) self, (void) want;
+    *K = NULL;
+    return PG_OK;
+}
 static const pg_sparse *beam_basis (void *self)
 {
     return ((beam *) self)->T.ncol ? &((beam *) self)->T : NULL;

@@ -31,8 +31,8 @@ static void matrix_is_sweep (bonded *b, double tolerance)
     double *x = random_vector (b->ndof, 7), *y = pg_calloc (b->ndof, sizeof *y),
            *z = pg_calloc (b->ndof, sizeof *z), *d = pg_calloc (b->ndof, sizeof *d);
     const pg_operator *op = b->force->operator_ (b->self);
-    check_ok (b->force->assemble (b->self));
-    const pg_sparse *K = b->force->matrix (b->self);
+    check_ok (pg_force_assemble (b->force, b->self, NULL));
+    const pg_sparse *K = pg_force_matrix (b->force, b->self);
     assert_int_equal (K->symmetric, 1);
     pg_sparse_multiply (K, x, y);
     op->apply (op->context, x, z);
@@ -73,15 +73,15 @@ static void test_partial_assembly (void **unused)
     (void) unused;
     for (size_t k = 0; k < BODIES; k++) {
         bonded b = bonded_of (bodies[k]), fresh = bonded_of (bodies[k]);
-        check_ok (b.force->assemble (b.self));
+        check_ok (pg_force_assemble (b.force, b.self, NULL));
         unsigned long before = b.force->revision (b.self);
         pg_changes c = kill_some (&b, 5);
         assert_true (b.force->revision (b.self) != before);
-        check_ok (b.force->assemble (b.self));
+        check_ok (pg_force_assemble (b.force, b.self, NULL));
         memcpy (fresh.state->alive, b.state->alive, b.state->nbond);
         check_ok (fresh.force->refresh (fresh.self, fresh.state, NULL));
-        check_ok (fresh.force->assemble (fresh.self));
-        const pg_sparse *K = b.force->matrix (b.self), *F = fresh.force->matrix (fresh.self);
+        check_ok (pg_force_assemble (fresh.force, fresh.self, NULL));
+        const pg_sparse *K = pg_force_matrix (b.force, b.self), *F = pg_force_matrix (fresh.force, fresh.self);
         assert_int_equal (K->start[b.ndof], F->start[b.ndof]);
         assert_memory_equal (K->value, F->value, (size_t) K->start[b.ndof] * sizeof *K->value);
         const pg_family *f = &b.problem->rows[PG_NODES].family;
@@ -182,8 +182,8 @@ static void test_cut (void **unused)
               d[2 * i + 1] = b.problem->cloud.x[2 * i] < 0.45 ? 0 : -0.5;
     check_ok (b.force->balance (b.self, 0, d, r, &reference));
     assert_true (reference == 0);
-    check_ok (b.force->assemble (b.self));
-    const pg_sparse *K = b.force->matrix (b.self);
+    check_ok (pg_force_assemble (b.force, b.self, NULL));
+    const pg_sparse *K = pg_force_matrix (b.force, b.self);
     size_t across = 0;
     for (size_t j = 0; j < b.ndof; j++)
         for (long q = K->start[j]; q < K->start[j + 1]; q++) {
@@ -325,7 +325,7 @@ static void test_bound (void **unused)
                *m = pg_calloc (b.ndof, sizeof *m), omega, top = 0;
         const pg_operator *op = b.force->operator_ (b.self);
         check_ok (b.force->motion.bound (b.self, &omega));
-        check_ok (b.force->mass (b.self, m));
+        check_ok (b.force->mass (b.self, m, NULL));
         for (int it = 0; it < 400; it++) {
             op->apply (op->context, x, y);
             double size = 0;
@@ -377,9 +377,9 @@ static void test_threads (void **unused)
             check_ok (b.force->field (b.self, b.state, d, names[f], &components, &unit, s));
             assert_memory_equal (r, s, a.n * (size_t) components * sizeof *r);
         }
-        check_ok (a.force->assemble (a.self));
-        check_ok (b.force->assemble (b.self));
-        const pg_sparse *A = a.force->matrix (a.self), *B = b.force->matrix (b.self);
+        check_ok (pg_force_assemble (a.force, a.self, NULL));
+        check_ok (pg_force_assemble (b.force, b.self, NULL));
+        const pg_sparse *A = pg_force_matrix (a.force, a.self), *B = pg_force_matrix (b.force, b.self);
         assert_memory_equal (A->value, B->value, (size_t) A->start[a.ndof] * sizeof *A->value);
         pg_free (d), pg_free (r), pg_free (s);
         unbonded (&a), unbonded (&b);

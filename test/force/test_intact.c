@@ -91,9 +91,9 @@ static void kept_rows_give_the_same_bits (void **unused)
 /* Matrices of two forces, after `assemble` of both. */
 static void same_matrix (const bonded *b, void *one, void *other)
 {
-    check_ok (b->force->assemble (one));
-    check_ok (b->force->assemble (other));
-    const pg_sparse *A = b->force->matrix (one), *B = b->force->matrix (other);
+    check_ok (pg_force_assemble (b->force, one, NULL));
+    check_ok (pg_force_assemble (b->force, other, NULL));
+    const pg_sparse *A = pg_force_matrix (b->force, one), *B = pg_force_matrix (b->force, other);
     size_t entries = (size_t) A->start[A->ncol];
     assert_int_equal (B->start[B->ncol], A->start[A->ncol]);
     assert_memory_equal (A->row, B->row, entries * sizeof *A->row);

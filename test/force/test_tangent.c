@@ -78,8 +78,8 @@ static void compare (run *r)
     for (size_t i = 0; i < n; i++) top = fmax (top, fabs (Kd[i]));
     assert_true (top > 0 && reference > 0);
     for (size_t i = 0; i < n; i++) check_scaled (at_zero[i] - at_d[i], Kd[i], 1e-11, top);
-    check_ok (f->assemble (self));                     /* the matrix and the product without it are one */
-    pg_sparse K = *f->matrix (self);
+    check_ok (pg_force_assemble (f, self, NULL));         /* the matrix and the product without it are one */
+    pg_sparse K = *pg_force_matrix (f, self);
     pg_sparse_multiply (&K, d, at_d);
     for (size_t i = 0; i < n; i++) check_scaled (at_d[i], Kd[i], 1e-12, top);
     op->diagonal (op->context, at_zero);
@@ -177,9 +177,9 @@ static void a_partial_update_equals_a_fresh_one (void **state)
             }
             check_ok (pg_state_copy (whole.state, part.state));
             refresh (&whole, NULL);
-            check_ok (f->assemble (self));
-            check_ok (f->assemble (other));
-            const pg_sparse *A = f->matrix (self), *B = f->matrix (other);
+            check_ok (pg_force_assemble (f, self, NULL));
+            check_ok (pg_force_assemble (f, other, NULL));
+            const pg_sparse *A = pg_force_matrix (f, self), *B = pg_force_matrix (f, other);
             assert_memory_equal (A->value, B->value, (size_t) A->start[A->ncol] * sizeof *A->value);
             size_t n = part.state->ndof;
             double *d = pg_calloc (3 * n, sizeof *d), reference[2];

@@ -22,8 +22,8 @@ int main (int argc, char **argv)
     for (size_t k = 0; k < n; k++) components += field[k].components;
     PG_TRY (pg_state_create (&state, problem, components));
     PG_TRY (force->refresh (self, state, NULL));
-    if (force->assemble) PG_TRY (force->assemble (self));
-    PG_TRY (pg_matrix_market_write (force->matrix (self), argv[2], NULL));
+    PG_TRY (pg_force_assemble (force, self, NULL));
+    PG_TRY (pg_matrix_market_write (pg_force_matrix (force, self), argv[2], NULL));
 done:
     if (status != PG_OK) fprintf (stderr, "%s\n", pg_last_error ());
     return status != PG_OK;

@@ -13,7 +13,7 @@ static double *dense_mass (assembled *a)
     size_t n = a->ndof, dim = (size_t) a->problem->dim;
     double *M = pg_calloc (n * n, sizeof *M);
     const pg_sparse *m;
-    check_ok (a->force->motion.mass_matrix (a->self, &m));
+    check_ok (a->force->mass (a->self, NULL, &m));
     for (size_t j = 0; j < m->ncol; j++)
         for (long e = m->start[j]; e < m->start[j + 1]; e++)
             for (size_t k = 0; k < dim; k++) {

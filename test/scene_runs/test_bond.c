@@ -313,7 +313,7 @@ static void memory_ends (void **unused)
         pg_memory_fail_at (k);
         status = force->create (&self, problem);
         if (status == PG_OK) status = force->refresh (self, state, NULL);
-        if (status == PG_OK) status = force->assemble (self);
+        if (status == PG_OK) status = pg_force_assemble (force, self, NULL);
         if (status == PG_OK) status = force->sample (self, state, state->d, 1, place, u, NULL, NULL);
         pg_memory_fail_at (0);
         if (self) force->free (&self);

@@ -73,8 +73,8 @@ static void check_bits (const pg_equations *e, run *r)
 {
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    if (force->assemble) check_ok (force->assemble (self));
-    const pg_sparse *K = force->matrix (self);
+    check_ok (pg_force_assemble (force, self, NULL));
+    const pg_sparse *K = pg_force_matrix (force, self);
     size_t nnz = (size_t) K->start[K->ncol];
     assert_int_equal (K->symmetric, 1);
     assert_true (nnz > 1000);

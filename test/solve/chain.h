@@ -80,13 +80,19 @@ static pg_status chain_balance (void *self, double t, const double *d, double *r
     if (reference) *reference = sqrt (size);
     return PG_OK;
 }
-static pg_status chain_mass (void *self, double *mass)
+static pg_status chain_mass (void *self, double *mass, const pg_sparse **consistent)
 {
-    for (size_t i = 0; i < the.n; i++) mass[i] = ((const chain *) self)->m;
+    if (consistent) *consistent = NULL;
+    for (size_t i = 0; mass && i < the.n; i++) mass[i] = ((const chain *) self)->m;
     return PG_OK;
 }
 static const pg_operator *chain_operator (void *self) { return &((chain *) self)->op; }
-static const pg_sparse *chain_matrix (void *self) { return &((chain *) self)->K; }
+static pg_status chain_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
+{
+    (void) want;
+    *K = &((chain *) self)->K;
+    return PG_OK;
+}
 static const pg_sparse *chain_basis (void *self) { return the.lead ? &((chain *) self)->T : NULL; }
 static pg_status chain_impose (void *self, double t, double *d)
 {

@@ -28,7 +28,7 @@ static void forces_are_those_after_the_break (void **state)
         double *mass = pg_calloc (n, sizeof *mass), *f = pg_calloc (n, sizeof *f), unused;
         void *self;
         const pg_force_type *force = pg_solver_force (r.solver, &self);
-        check_ok (force->mass (self, mass));
+        check_ok (force->mass (self, mass, NULL));
         while (!pg_solver_done (r.solver, r.state) && broke < 4) {
             double off = 0, size = 0;
             advance (&r);

@@ -76,7 +76,7 @@ static double energy (dynamic *r)
     const pg_operator *K = r->force->operator_ (r->self);
     double *Kd = pg_calloc (ndof, sizeof *Kd), *mass = pg_calloc (ndof, sizeof *mass), sum = 0;
     K->apply (K->context, r->state->d, Kd);
-    check_ok (r->force->mass (r->self, mass));
+    check_ok (r->force->mass (r->self, mass, NULL));
     for (size_t i = 0; i < ndof; i++)
         sum += 0.5 * (r->state->d[i] * Kd[i] + mass[i] * r->state->v[i] * r->state->v[i]);
     pg_free (Kd), pg_free (mass);

@@ -22,7 +22,7 @@ static motion look (run *r)
     void *self;
     const pg_force_type *f = pg_solver_force (r->solver, &self);
     double *mass = pg_calloc (r->state->ndof, sizeof *mass), half = 0;
-    check_ok (f->mass (self, mass));
+    check_ok (f->mass (self, mass, NULL));
     for (size_t i = 0; i < r->state->ndof; i++) m.momentum[i % 2] += mass[i] * r->state->v[i];
     for (size_t i = 0; i < r->state->ndof; i += 2) {
         if (r->problem->cloud.x[i] < 0) m.left += mass[i] * r->state->v[i], half += mass[i];
@@ -117,7 +117,7 @@ static void solids_collide (const char *kind, double oblique, const char *linear
     const pg_force_type *f = pg_solver_force (r.solver, &self);
     double *mass = pg_calloc (r.state->ndof, sizeof *mass), start = 0, grown = 0, overlap = 0, parted = 0,
            sum[3], right = 0;
-    check_ok (f->mass (self, mass));
+    check_ok (f->mass (self, mass, NULL));
     for (size_t i = 0; i < r.state->ndof; i += 3) {
         const double *x = r.problem->cloud.x + i;
         if (x[0] < -0.5 + oblique * (x[1] - 1.5) / 2.5) r.state->v[i] = speed, start += mass[i] * speed;

@@ -53,10 +53,10 @@ static void consistent_mass_is_exact_for_linear_motion (void **state)
                           "newmark, dt: 1, end: 2, mass: consistent}\n");
     advance (&r);
     const pg_sparse *M;
-    check_ok (r.force->motion.mass_matrix (r.self, &M));
+    check_ok (r.force->mass (r.self, NULL, &M));
     double mass = 0, spread = 0, lumped = 0, *m = pg_calloc (3 * r.n, sizeof *m);
     const double *x = r.problem->cloud.x;
-    check_ok (r.force->mass (r.self, m));
+    check_ok (r.force->mass (r.self, m, NULL));
     for (size_t J = 0; J < M->ncol; J++) {
         for (long q = M->start[J]; q < M->start[J + 1]; q++) {
             size_t I = (size_t) M->row[q];

@@ -47,9 +47,19 @@ static pg_status spring_balance (void *self, double t, const double *d, double *
     *reference = fmax (fabs (p), fabs (s->k * d[0]));
     return PG_OK;
 }
-static pg_status spring_mass (void *self, double *mass) { mass[0] = ((spring *) self)->m; return PG_OK; }
+static pg_status spring_mass (void *self, double *mass, const pg_sparse **consistent)
+{
+    if (consistent) *consistent = NULL;
+    if (mass) mass[0] = ((spring *) self)->m;
+    return PG_OK;
+}
 static const pg_operator *spring_operator (void *self) { return &((spring *) self)->op; }
-static const pg_sparse *spring_matrix (void *self) { return &((spring *) self)->K; }
+static pg_status spring_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
+{
+    (void) want;
+    *K = &((spring *) self)->K;
+    return PG_OK;
+}
 
 static const pg_force_type spring_types[2] = { { .method = { .name = "spring" },
                                                  .create = spring_create,
