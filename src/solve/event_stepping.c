@@ -2,8 +2,8 @@
  * Event stepping: from one break to the next. Between breaks everything is linear in the load factor lambda,
  * so that d = lambda d_1 and the factor of the next break follows in closed form (theory F6): go there, break
  * the bonds that reach their limit (ties included), solve for the new d_1, and so on; levels that the user
- * wants are reported as they are passed. This file: loads proportional to lambda, and what both kinds share;
- * event_stepping_affine.c: loads with a constant part as well. */
+ * wants are reported as they are passed. Loads with a constant part as well have two equilibria, at the ends
+ * of a line, and the next break is looked for on it (event_stepping_affine.c); all else is the same. */
 #include "contact.h"
 #include "event_stepping.h"
 #include "facet_growth.h"
@@ -127,17 +127,19 @@ void event_equilibrium_lost (pg_solver *s, const pg_state *state)
     e->balance_fresh = 0;
 }
 
-/* d = factor * unit; energies are quadratic in the factor. */
-static pg_status go_to (pg_solver *s, pg_state *state, double factor)
+pg_status event_account (pg_solver *s, const pg_state *state, double factor, int rest)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
-    event_move (s, state, factor);
-    state->factor = state->time = factor;
-    if (!e->balance_fresh) PG_TRY (break_loop_account (&s->break_loop, 1, e->unit, NULL, 1, factor));
-    else PG_TRY (break_loop_book (&s->break_loop, factor));
+    break_loop *b = &s->break_loop;
+    double scale = e->base ? 1 : factor;
+    if (e->base) {
+        stage_bear (s, factor);
+        PG_TRY (break_loop_account (b, factor, state->d, NULL, 0, 1));
+    } else if (e->balance_fresh) PG_TRY (break_loop_book (b, factor));
+    else PG_TRY (break_loop_account (b, 1, e->unit, NULL, rest, factor));
     e->balance_fresh = 1;
-    s->report.energy_strain = factor * factor * s->break_loop.work_balance.strain;
+    s->report.energy_strain = scale * scale * b->work_balance.strain;
 done:
     return status;
 }
@@ -249,32 +251,34 @@ done:
     return status;
 }
 
-/* The bonds within the width of the worst one die, by factors of all bonds. */
+/* The bonds at their limit die, and those within the width of ties. Proportional loads: by the load factors at
+ * which they reach it. scale: of the utilisation kept. */
 static pg_status kill_at (pg_solver *s, pg_state *state, double factor, double scale)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 1;
-    /* utilisation here */
-    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
-    if (e->unstable.held) PG_TRY (worst_here (s, state, &top, &scale));
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie;
+    double *here = e->base ? b->utilisation : b->factor, top = e->base ? break_loop_largest (b, here) : 1;
+    for (size_t i = 0; !e->base && i < state->nbond; i++) here[i] = here[i] > 0 ? factor / here[i] : 0;
+    if (!e->base && e->unstable.held) PG_TRY (worst_here (s, state, &top, &scale));
     instability_before (s, &e->unstable, state);
-    PG_TRY (break_loop_kill (b, state, b->factor, (1 - width) * top, scale, factor));
+    PG_TRY (break_loop_kill (b, state, here, (1 - width) * top, scale, factor));
     ahead_forget (e->ahead);
 done:
     return status;
 }
 
-/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
- * next step is refused. Events that were found together bring both with them. */
+/* Breaks what reaches its limit at `factor`, finds the equilibria without it and accounts the work at an
+ * unchanged load; where there is no equilibrium the next step is refused. Events that were found together
+ * bring both with them. */
 static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
 {
     pg_status status = PG_OK, now = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    int ahead = ahead_waits (e->ahead);
+    int ahead = ahead_waits (e->ahead), moves;
     double stiff;
     if (ahead) PG_TRY (ahead_kill (s, state));
     else PG_TRY (kill_at (s, state, factor, scale));
@@ -282,9 +286,9 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
+    e->balance_fresh = 0;
     if (ahead) PG_TRY (ahead_take (s));
     else now = event_solve (s);
-    int moves;
     PG_TRY (instability_after (s, &e->unstable, state, factor, now, &moves));
     if (moves) {
         step->dissipated = b->work - work - (s->report.energy_strain - strain);
@@ -292,8 +296,8 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     }
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
-    PG_TRY (break_loop_account (b, 1, e->unit, NULL, 1, factor));
-    s->report.energy_strain = factor * factor * b->work_balance.strain;
+    if (e->base) event_move (s, state, factor);
+    PG_TRY (event_account (s, state, factor, 1));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));
@@ -313,84 +317,74 @@ static int grows_in_proportion (const break_loop *b, const pg_state *state)
     return !(system_most (&b->system, off) > 1e-9);
 }
 
-/* Utilisation of the accepted state, from that of the unit displacement: independent of the closed form
- * that gave the factor. Where a measure is not linear (finite stretch) the state itself is measured. *scale
- * belongs to the utilisation kept. */
-static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
+/* Utilisation of the accepted state: of proportional loads from that of the unit displacement, independent of
+ * the closed form that gave the factor; where a measure is not linear (finite stretch) the state itself is
+ * measured. *scale belongs to the utilisation kept. */
+static pg_status look_over (pg_solver *s, const pg_state *state, double factor, int breaks, double *scale,
+                            pg_step *step)
 {
     pg_status status = PG_OK;
+    const event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    *scale = factor;
-    PG_TRY (contact_show (&b->system, factor));
+    double share = factor - stage_start (s);
+    *scale = e->base ? 1 : factor;
+    PG_TRY (contact_show (&b->system, *scale));
     if (b->growth) {
-        step->utilisation = facet_utilisation (b, state, factor);
-        step->unjudged = facet_unjudged (b, state, factor);
-        return facet_show (s, state, factor);
+        step->utilisation = facet_utilisation (b, state, share);
+        step->unjudged = facet_unjudged (b, state, share);
+        return facet_show (s, state, share);
     }
     if (!break_loop_judges (b)) return PG_OK;
     long over = break_loop_over (b, state, *scale, &step->utilisation);
-    int some = system_most (&b->system, (double) over) > 0, grows = grows_in_proportion (b, state);
-    if (some || !grows) {
+    int some = system_most (&b->system, (double) over) > 0;
+    if (!e->base && (some || !grows_in_proportion (b, state))) {
         *scale = 1;
-        PG_TRY (
-            b->system.force->judge (b->system.self, state, state->d,
-                                    &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
+        PG_TRY (b->system.force->judge (b->system.self, state, state->d,
+                                        &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
         over = break_loop_over (b, state, *scale, &step->utilisation);
     }
-    if (!events_of (s)->unstable.held) s->report.bonds_over_limit += over;   /* else about to break */
+    /* at a held factor they are about to break */
+    if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
 done:
     return status;
 }
 
-/* Reactions of all loads: those of factor 1, which the balance at hand has, times the factor. */
+/* Reactions of all loads, by the balance at hand. */
 static void take_reactions (pg_solver *s, double factor)
 {
-    const double *of_unit = s->break_loop.work_balance.reaction;
-    if (!of_unit) return;
-    for (size_t k = 0; k < PG_REACTIONS * s->problem->nload; k++) {
-        s->reaction[k] = of_unit[k];
-        s->reaction[k] *= factor;
-    }
+    const double *at_hand = s->break_loop.work_balance.reaction, scale = events_of (s)->base ? 1 : factor;
+    for (size_t k = 0; at_hand && k < PG_REACTIONS * s->problem->nload; k++)
+        s->reaction[k] = scale * at_hand[k];
 }
 
 pg_status event_rest (pg_solver *s, pg_state *state, double factor)
 {
     pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    const pg_work_balance *b = &s->break_loop.work_balance;
     double stiff;
-    e->balance_fresh = 0;
-    if (!e->base) {
-        PG_TRY (go_to (s, state, factor));
-        take_reactions (s, factor);
-    } else {
-        event_move (s, state, factor);
-        PG_TRY (break_loop_account (&s->break_loop, factor, state->d, NULL, 0, 1));
-        s->report.energy_strain = b->strain;
-        if (b->reaction) memcpy (s->reaction, b->reaction,
-                                 PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
-    }
+    events_of (s)->balance_fresh = 0;
+    event_move (s, state, factor);
+    PG_TRY (event_account (s, state, factor, 1));
+    take_reactions (s, factor);
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));
 done:
     return status;
 }
 
-/* One step: the smallest load factor at which a bond reaches its limit, or the next level that the user
- * wants, whichever comes first; the state there; then what breaks there. */
-static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step)
+/* ---- one step ------------------------------------------------------------------------------------------ */
+/* Proportional loads: the smallest load factor at which a bond or a facet reaches its limit, or the next level
+ * that the user wants, whichever comes first; *breaks: something breaks there. */
+static pg_status aim_in_proportion (pg_solver *s, pg_state *state, double level, double *factor, int *breaks,
+                                    pg_step *step)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    double next = INFINITY, level = (double) s->next_level / (double) s->options.levels, scale = 1;
-    b->nbroken = 0;
-    step->iterations = 1;
+    double next = INFINITY;
     if (!ahead_waits (e->ahead)) PG_TRY (ahead_look (s, state, level));
     double t0 = pg_seconds ();
-    int ahead = ahead_waits (e->ahead);
     if (b->growth) PG_TRY (facet_next (s, state, &next));
-    else if (ahead) next = ahead_factor (e->ahead, &step->utilisation);
+    else if (ahead_waits (e->ahead)) next = ahead_factor (e->ahead, &step->utilisation);
     else if (break_loop_judges (b)) {
         PG_TRY (break_loop_ready (b));
         PG_TRY (b->system.force->judge (b->system.self, state, e->unit,
@@ -400,28 +394,73 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     int over = next < state->factor * (1 - rounding);
     if (instability_holds (s, &e->unstable, over)) next = state->factor;
-    step->instability = e->unstable.held ? e->unstable.count : 0;
-    double factor = next < level ? next : level;
-    PG_TRY (go_to (s, state, factor));
+    *breaks = next <= level, *factor = next < level ? next : level;
+done:
+    return status;
+}
+
+/* The state at this factor, work and reactions there. */
+static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *step)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    pg_system *sys = &s->break_loop.system;
+    int changes = e->base && sys->contact;
+    event_move (s, state, factor);
+    state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
+    if (changes) PG_TRY (contact_route_go (sys, factor));
+    if (changes) s->report.contact_changes += contact_route_due (sys);
+    PG_TRY (event_account (s, state, factor, 1));
+    if (e->base) contact_accept (sys);
     take_reactions (s, factor);
     if (e->secant0 == 0) PG_TRY (event_secant (s, &e->secant0));
-    step->factor = step->time = factor;
     step->residual = e->unit_residual;
-    if (!ahead) PG_TRY (look_over (s, state, factor, &scale, step));
-    if (next <= level && b->growth) PG_TRY (facet_event (s, state, factor, step));
-    else if (next <= level) PG_TRY (break_at (s, state, factor, scale, step));
-    if (!(level > factor)) {
-        step->level = 1;
-        if (s->next_level++ >= s->options.levels) {
-            s->finished = 1;
-            if (state->events == 0 && s->options.levels > 1)
-                pg_statistics_skip (&s->report,
-                                    (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
-                                    "solves of all levels but one",
-                                    "no bond broke: the answer is linear in the load factor");
-        }
+done:
+    return status;
+}
+
+/* The load has come to a level; the last one is the end of the stage, or of the run. A body that an event has
+ * set in motion there comes to rest first, and the level is taken then. */
+static void take_level (pg_solver *s, const pg_state *state, pg_step *step)
+{
+    int stages = s->stage.now.number > 0;
+    if (stages && instability_moves (&events_of (s)->unstable)) return;
+    step->level = 1;
+    if (s->next_level++ < s->options.levels) return;
+    if (!stages) s->finished = 1;
+    else if (s->stage.now.over == STAGE_GOES_ON) s->stage.now.over = STAGE_LOADS;
+    if (!events_of (s)->base && state->events == 0 && s->options.levels > 1)
+        pg_statistics_skip (&s->report,
+                            (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
+                            "solves of all levels but one",
+                            "no bond broke: the answer is linear in the load factor");
+}
+
+/* To the next break or level, in either direction, over changes of contact on the way; then what breaks there.
+ * Loads with a constant part begin at load factor 0, where that part acts alone. */
+static pg_status to_next_event (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    double level = stage_level (s), factor, scale = 1;
+    int breaks, stops = 0, goes_on = 1, start = e->base && state->step == 0;
+    b->nbroken = 0;
+    step->iterations = 1;
+    for (int k = 0; goes_on; k++) {
+        if (!e->base) PG_TRY (aim_in_proportion (s, state, level, &factor, &breaks, step));
+        else PG_TRY (affine_aim (s, state, level, k > 0, &factor, &breaks, &stops));
+        step->instability = e->unstable.held ? e->unstable.count : 0;
+        PG_TRY (go_to (s, state, factor, step));
+        goes_on = e->base && b->system.contact && !start && !breaks && !stops && factor < level;
     }
+    if (!ahead_waits (e->ahead)) PG_TRY (look_over (s, state, factor, breaks, &scale, step));
+    if (e->base && !stops) PG_TRY (affine_meets (s, state, s->reaction, &stops));
+    if (breaks && !stops)
+        PG_TRY (b->growth ? facet_event (s, state, factor, step) : break_at (s, state, factor, scale, step));
+    if (start) step->level = 1;
+    else if (!(level > factor)) take_level (s, state, step);
     event_limit (s, state, factor);
     if (s->finished) ahead_tell (s);
 done:
@@ -441,8 +480,7 @@ pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
     if (stage_next (s, state)) PG_TRY (begin_stage (s, state, ended));
     else if (e->lost) PG_TRY (event_solve (s));
     e->lost = 0;
-    return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
-                                                           : proportional_step (s, state, step);
+    PG_TRY (to_next_event (s, state, step));
 done:
     return status;
 }

@@ -56,8 +56,19 @@ void      ahead_tell   (pg_solver *s);                 /* for the report, once a
 pg_status ahead_keep   (pg_solver *s, const pg_keeper *k);
 void      ahead_free   (struct event_ahead **q);
 
-/* Affine loads: one event or level; facets: where the next one grows, *end, at most at full load. */
-pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);
+/* Work up to the state at this load factor, whose displacement is that of event_displacement, and its stored
+ * energy. Proportional loads: the balance of load factor 1, made once for the bonds that live (rest: by what
+ * spares an equilibrium its evaluation), times the factor; energies are quadratic in it. */
+pg_status event_account (pg_solver *s, const pg_state *state, double factor, int rest);
+
+/* Affine loads: where this step goes, *breaks: to break something there; *stops: to end the stage, since a
+ * condition is met by what the last event has left behind, or by a gauge on the way. arrived: this step has
+ * come up to where the state is. */
+pg_status affine_aim   (pg_solver *s, pg_state *state, double level, int arrived, double *factor, int *breaks,
+                        int *stops);
+/* *stops: a state from which nothing goes on at a held load meets a condition of its stage. */
+pg_status affine_meets (pg_solver *s, const pg_state *state, const double *reaction, int *stops);
+/* Facets: where the next one grows, *end, at most at full load. */
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
 /* With contact: accounts the way of a facet from before it to where the next one grows, at which
  * affine_next_growth has left the forces of contact, and back through all changes of status to the state

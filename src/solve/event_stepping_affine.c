@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Event stepping under loads that are a constant part and factor lambda times another: between breaks d = d_0
+ * The next event under loads that are a constant part and factor lambda times another: between breaks d = d_0
  * + lambda (d_1 - d_0), with two equilibria, at lambda = 0 and 1. Every utilisation is convex in lambda (a
  * length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval
  * of lambda: from a place that all bonds admit there is one way out to each side, found by chords of every
@@ -135,17 +135,6 @@ static void tell_driven (pg_solver *s, const pg_state *state, double factor)
 /* ---- stretches between changes of status --------------------------------------------------------------- */
 static struct system_contact *contact_of (const pg_solver *s) { return s->break_loop.system.contact; }
 
-/* Work at the state at hand, whose forces of contact stand there too. */
-static pg_status account_here (pg_solver *s, pg_state *state, double t)
-{
-    pg_status status = PG_OK;
-    stage_bear (s, t);
-    PG_TRY (break_loop_account (&s->break_loop, t, state->d, NULL, 0, 1));
-    s->report.energy_strain = s->break_loop.work_balance.strain;
-done:
-    return status;
-}
-
 /* base and unit become the line that leads on from here. *leapt: forces and gaps have leapt at its start. */
 static pg_status stretch_ahead (pg_solver *s, int *leapt)
 {
@@ -189,7 +178,7 @@ static pg_status stretches_back (pg_solver *s, pg_state *state, int account, dou
         if (*found) break;
         event_move (s, state, low);
         PG_TRY (contact_route_go (sys, low));
-        if (account) PG_TRY (account_here (s, state, low));
+        if (account) PG_TRY (event_account (s, state, low, 0));
         PG_TRY (contact_route_mark (sys));
         *out = low;
         if (low > start) PG_TRY (contact_route_behind (sys));
@@ -206,7 +195,7 @@ static pg_status back_to_mark (pg_solver *s, pg_state *state, size_t first, int 
     pg_system *sys = &s->break_loop.system;
     for (size_t k = contact_route_marks (sys); k-- > first;) {
         contact_route_return (sys, k, state->d);
-        if (account) PG_TRY (account_here (s, state, sys->contact->now.at));
+        if (account) PG_TRY (event_account (s, state, sys->contact->now.at, 0));
     }
     if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
 done:
@@ -234,7 +223,7 @@ done:
     return status;
 }
 
-/* ---- one step ------------------------------------------------------------------------------------------ */
+/* ---- the next event ------------------------------------------------------------------------------------------ */
 /* The loads in which the crack rests below the present one, where it does not; else the load is held. */
 static pg_status fall_back (pg_solver *s, pg_state *state, double top, double *factor)
 {
@@ -270,7 +259,7 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, int arrive
     PG_TRY (stretch_ahead (s, &leapt));
     if (leapt) {
         event_move (s, state, now);
-        PG_TRY (account_here (s, state, now));
+        PG_TRY (event_account (s, state, now, 0));
     }
     level = fmin (level, stretch_end (s));
     *breaks = 0, *factor = state->step == 0 ? now : level;
@@ -344,7 +333,7 @@ pg_status affine_account (pg_solver *s, pg_state *state, double end)
 {
     pg_status status = PG_OK;
     pg_system *sys = &s->break_loop.system;
-    PG_TRY (account_here (s, state, end));
+    PG_TRY (event_account (s, state, end, 0));
     PG_TRY (back_to_mark (s, state, 0, 1));
     contact_route_forget (sys);
 done:
@@ -381,60 +370,15 @@ done:
     return status;
 }
 
-/* Breaks the bonds at their limit (and ties) at this load factor, solves both equilibria anew and accounts
- * the work at an unchanged load. */
-static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_step *step)
-{
-    pg_status status = PG_OK;
-    break_loop *b = &s->break_loop;
-    const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie,
-           top = break_loop_largest (b, b->utilisation), now;
-    instability_before (s, &events_of (s)->unstable, state);
-    PG_TRY (break_loop_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
-    step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
-    state->events++, s->report.events++;
-    double strain = s->report.energy_strain, work = b->work;
-    PG_TRY (system_refresh (&b->system, state, &b->changes));
-    pg_status solved = event_solve (s);
-    int moves;
-    PG_TRY (instability_after (s, &events_of (s)->unstable, state, factor, solved, &moves));
-    if (moves) {
-        step->dissipated = b->work - work - (s->report.energy_strain - strain);
-        goto done;
-    }
-    if (event_ended (s, state, factor, solved)) goto done;
-    PG_TRY (solved);
-    event_move (s, state, factor);
-    stage_bear (s, factor);
-    PG_TRY (break_loop_account (b, factor, state->d, NULL, 0, 1));
-    s->report.energy_strain = b->work_balance.strain;
-    step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    PG_TRY (event_secant (s, &now));
-    PG_TRY (event_stops (s, state, factor, now));
-    event_apart (s, 0, work, strain, step);
-done:
-    return status;
-}
-
-/* The load has come to a level; the last one is the end of the stage, or of the run. A body that an event has
- * set in motion there comes to rest first, and the level is taken then. */
-static void take_level (pg_solver *s, pg_step *step)
-{
-    int stages = s->stage.now.number > 0;
-    if (stages && instability_moves (&events_of (s)->unstable)) return;
-    step->level = 1;
-    if (s->next_level++ < s->options.levels) return;
-    if (!stages) s->finished = 1;
-    else if (s->stage.now.over == STAGE_GOES_ON) s->stage.now.over = STAGE_LOADS;
-}
-
 /* A state from which nothing goes on at a held load: conditions of a stage may be asked of it. */
 static int rests (const event_stepping *e) { return !e->driven && !e->unstable.held; }
 
-/* Where this step goes, *breaks: to break something there; *stops: to end the stage, since a condition is met
- * by what the last event has left behind, or by a gauge on the way. */
-static pg_status aim (pg_solver *s, pg_state *state, double level, int arrived, double *factor, int *breaks,
+pg_status affine_meets (pg_solver *s, const pg_state *state, const double *reaction, int *stops)
+{
+    return rests (events_of (s)) ? stage_meets (s, state, reaction, stops) : PG_OK;
+}
+
+pg_status affine_aim (pg_solver *s, pg_state *state, double level, int arrived, double *factor, int *breaks,
                       int *stops)
 {
     pg_status status = PG_OK;
@@ -446,76 +390,6 @@ static pg_status aim (pg_solver *s, pg_state *state, double level, int arrived, 
     if (e->bears) PG_TRY (stage_meets (s, state, s->break_loop.work_balance.reaction, stops));
     if (*stops) *factor = now;
     else if (rests (e)) PG_TRY (stage_cross (s, state, e->base, e->unit, now, factor, stops));
-done:
-    return status;
-}
-
-/* The state at this factor, work and reactions there. */
-static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *step)
-{
-    pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    break_loop *b = &s->break_loop;
-    event_move (s, state, factor);
-    state->factor = state->time = step->factor = step->time = factor;
-    e->top_factor = fmax (e->top_factor, factor);
-    if (contact_of (s)) PG_TRY (contact_route_go (&b->system, factor));
-    if (contact_of (s)) s->report.contact_changes += contact_route_due (&b->system);
-    PG_TRY (account_here (s, state, factor));
-    contact_accept (&b->system);
-    if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction,
-                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
-    if (state->step == 0 || (s->stage.now.number && e->secant0 == 0)) PG_TRY (event_secant (s, &e->secant0));
-    step->residual = e->unit_residual;
-done:
-    return status;
-}
-
-/* How near to their limits bonds or facets are there. */
-static pg_status judge (pg_solver *s, const pg_state *state, double factor, int breaks, pg_step *step)
-{
-    pg_status status = PG_OK;
-    const event_stepping *e = events_of (s);
-    break_loop *b = &s->break_loop;
-    PG_TRY (contact_show (&b->system, 1));
-    if (b->growth) {
-        step->utilisation = facet_utilisation (b, state, factor - stage_start (s));
-        step->unjudged = facet_unjudged (b, state, factor - stage_start (s));
-        return facet_show (s, state, factor - stage_start (s));
-    }
-    if (!break_loop_judges (b)) return PG_OK;
-    long over = break_loop_over (b, state, 1, &step->utilisation);
-    /* at a held factor they are about to break */
-    if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
-done:
-    return status;
-}
-
-/* One step: to the next break or level, in either direction; at load factor 0 first, where the constant
- * part acts alone. */
-pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
-{
-    pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    break_loop *b = &s->break_loop;
-    double level = stage_level (s), factor;
-    int breaks, stops, start = state->step == 0, changes = 1;
-    b->nbroken = 0;
-    step->iterations = 1;
-    for (int k = 0; changes; k++) {
-        PG_TRY (aim (s, state, level, k > 0, &factor, &breaks, &stops));
-        step->instability = e->unstable.held ? e->unstable.count : 0;
-        PG_TRY (go_to (s, state, factor, step));
-        changes = contact_of (s) && !start && !breaks && !stops && factor < level;
-    }
-    PG_TRY (judge (s, state, factor, breaks, step));
-    if (!stops && rests (e)) PG_TRY (stage_meets (s, state, s->reaction, &stops));
-    if (breaks && !stops)
-        PG_TRY (b->growth ? facet_event (s, state, factor, step) : break_here (s, state, factor, step));
-    if (start) step->level = 1;
-    else if (!(level > factor)) take_level (s, step);
-    event_limit (s, state, factor);
 done:
     return status;
 }

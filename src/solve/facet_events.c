@@ -38,6 +38,7 @@ static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *
     break_loop *b = &s->break_loop;
     *ended = 0;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
+    e->balance_fresh = 0;
     pg_status now = event_solve (s);
     if (event_ended (s, state, factor, now)) {
         *ended = 1;
@@ -88,17 +89,12 @@ done:
 static pg_status account (pg_solver *s, pg_state *state, double factor, double end)
 {
     pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    break_loop *b = &s->break_loop;
-    double ways[2] = { end, factor };
-    if (e->base && b->system.contact) return affine_account (s, state, end);
+    const double ways[2] = { end, factor };
+    if (events_of (s)->base && s->break_loop.system.contact) return affine_account (s, state, end);
     for (int k = 0; k < 2; k++) {
-        double scale = e->base ? 1 : ways[k];
         event_move (s, state, ways[k]);
-        PG_TRY (break_loop_account (b, e->base ? ways[k] : 1, e->base ? state->d : e->unit, NULL, 0, scale));
-        s->report.energy_strain = scale * scale * b->work_balance.strain;
+        PG_TRY (event_account (s, state, ways[k], 0));
     }
-    e->balance_fresh = 1;
 done:
     return status;
 }
