@@ -125,7 +125,8 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     factors = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
     if (!factors || s->stale) goto done;
     const pg_sparse *K = pg_force_matrix (s->force, s->self);
-    const pg_operator *op = K && K->value ? NULL : s->force->operator_ (s->self);  /* K went with its factor */
+    /* K may have gone with its factor */
+    const pg_operator *op = K && K->value ? NULL : s->force->operator_ (s->self);
     if (op) op->diagonal (op->context, e->diagonal);
     for (size_t i = 0; !op && i < e->ndof; i++) e->diagonal[i] = K->value[K->start[i + 1] - 1];
     e->shift = fmax (s->shift, 1e-11) * s->mean_diagonal, e->scale = s->reference > 0 ? s->reference : 1;

@@ -251,8 +251,8 @@ done:
     return status;
 }
 
-/* The bonds at their limit die, and those within the width of ties. Proportional loads: by the load factors at
- * which they reach it. scale: of the utilisation kept. */
+/* The bonds at their limit die, and those within the width of ties. Proportional loads: by the load factors
+ * at which they reach it. scale: of the utilisation kept. */
 static pg_status kill_at (pg_solver *s, pg_state *state, double factor, double scale)
 {
     pg_status status = PG_OK;
@@ -372,8 +372,8 @@ done:
 }
 
 /* ---- one step ------------------------------------------------------------------------------------------ */
-/* Proportional loads: the smallest load factor at which a bond or a facet reaches its limit, or the next level
- * that the user wants, whichever comes first; *breaks: something breaks there. */
+/* Proportional loads: the smallest load factor at which a bond or a facet reaches its limit, or the next
+ * level that the user wants, whichever comes first; *breaks: something breaks there. */
 static pg_status aim_in_proportion (pg_solver *s, pg_state *state, double level, double *factor, int *breaks,
                                     pg_step *step)
 {
@@ -437,8 +437,8 @@ static void take_level (pg_solver *s, const pg_state *state, pg_step *step)
                             "no bond broke: the answer is linear in the load factor");
 }
 
-/* To the next break or level, in either direction, over changes of contact on the way; then what breaks there.
- * Loads with a constant part begin at load factor 0, where that part acts alone. */
+/* To the next break or level, in either direction, over changes of contact on the way; then what breaks
+ * there. Loads with a constant part begin at load factor 0, where that part acts alone. */
 static pg_status to_next_event (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;

@@ -223,7 +223,7 @@ done:
     return status;
 }
 
-/* ---- the next event ------------------------------------------------------------------------------------------ */
+/* ---- the next event ------------------------------------------------------------------------------------ */
 /* The loads in which the crack rests below the present one, where it does not; else the load is held. */
 static pg_status fall_back (pg_solver *s, pg_state *state, double top, double *factor)
 {

@@ -81,7 +81,8 @@ static void test_partial_assembly (void **unused)
         memcpy (fresh.state->alive, b.state->alive, b.state->nbond);
         check_ok (fresh.force->refresh (fresh.self, fresh.state, NULL));
         check_ok (pg_force_assemble (fresh.force, fresh.self, NULL));
-        const pg_sparse *K = pg_force_matrix (b.force, b.self), *F = pg_force_matrix (fresh.force, fresh.self);
+        const pg_sparse *K = pg_force_matrix (b.force, b.self),
+                        *F = pg_force_matrix (fresh.force, fresh.self);
         assert_int_equal (K->start[b.ndof], F->start[b.ndof]);
         assert_memory_equal (K->value, F->value, (size_t) K->start[b.ndof] * sizeof *K->value);
         const pg_family *f = &b.problem->rows[PG_NODES].family;
