@@ -77,7 +77,7 @@ static void test_operator (void **unused)
         assert_true (c.n > b.n);
         check_operator (&b);
         pg_free (c.bond);
-        assert_null (b.force->matrix);
+        assert_null (pg_force_matrix (b.force, b.self));
         unbonded (&b);
     }
 }
