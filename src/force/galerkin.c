@@ -28,15 +28,17 @@ static void galerkin_free (void **self)
         if (!g->borrows[s])
             pg_free (g->rows[s].N), pg_free (g->rows[s].dN), pg_free (g->rows[s].w),
                 pg_free (g->rows[s].at), pg_free (g->rows[s].grade);
-        pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
-        pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]),
-            pg_free (g->judged[s]);
-        pg_free (g->alone[s]), pg_free (g->exact[s]), pg_free (g->bounded[s]);
-        pg_free (g->disturbed[s]), pg_free (g->longest[s]);
+        pg_free (g->measured.strain[s]), pg_free (g->measured.stress[s]), pg_free (g->measured.zz[s]),
+            pg_free (g->measured.u[s]);
+        pg_free (g->measured.s1[s]), pg_free (g->measured.s3[s]), pg_free (g->measured.seen[s]),
+            pg_free (g->list[s]),
+            pg_free (g->bounds.judged[s]);
+        pg_free (g->bounds.alone[s]), pg_free (g->bounds.exact[s]), pg_free (g->bounds.bounded[s]);
+        pg_free (g->measured.disturbed[s]), pg_free (g->bounds.longest[s]);
     }
-    pg_free (g->place_now);
-    pg_assembly_free (&g->K);
-    pg_assembly_free (&g->M);
+    pg_free (g->bounds.place_now);
+    pg_assembly_free (&g->stiffness.K);
+    pg_assembly_free (&g->stiffness.M);
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);
@@ -45,12 +47,13 @@ static void galerkin_free (void **self)
     galerkin_eigen_free (g);
     galerkin_dilatation_free (g);
     galerkin_change_free (g);
-    pg_nearest_free (&g->near_point);
-    pg_nearest_free (&g->near_node);
-    pg_family_search_free (&g->search);
-    galerkin_again_free (&g->again);
-    galerkin_alike_free (&g->alike);
-    pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide),
+    pg_nearest_free (&g->places.near_point);
+    pg_nearest_free (&g->places.near_node);
+    pg_family_search_free (&g->places.search);
+    galerkin_again_free (&g->places.again);
+    galerkin_alike_free (&g->places.alike);
+    pg_free (g->work), pg_free (g->stiffness.stale), pg_free (g->stiffness.diagonal),
+        pg_free (g->stiffness.wide),
         pg_free (g->ends);
     pg_free (g);
     *self = NULL;
@@ -61,6 +64,7 @@ static void galerkin_free (void **self)
  * displacement, principal stresses; `seen`: the displacement these belong to. */
 static pg_status create_set (galerkin *g, int s)
 {
+    galerkin_measured *m = &g->measured;
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     pg_rows *r = &g->rows[s];
@@ -69,14 +73,14 @@ static pg_status create_set (galerkin *g, int s)
     r->N = r->dN = r->w = NULL, r->at = NULL, r->grade = NULL;
     if (!galerkin_borrow (g, s)) PG_ALLOC (r->grade, r->n);
     g->material[s] = p->block[s];
-    PG_ALLOC (g->strain[s], r->n * (size_t) g->nv);
-    PG_ALLOC (g->stress[s], r->n * (size_t) g->nv);
-    PG_ALLOC (g->zz[s], r->n);
-    PG_ALLOC (g->u[s], r->n * dim);
-    PG_ALLOC (g->s1[s], r->n);
-    PG_ALLOC (g->s3[s], r->n);
-    PG_ALLOC (g->seen[s], g->n * dim);
-    PG_ALLOC (g->disturbed[s], (r->n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK);
+    PG_ALLOC (m->strain[s], r->n * (size_t) g->nv);
+    PG_ALLOC (m->stress[s], r->n * (size_t) g->nv);
+    PG_ALLOC (m->zz[s], r->n);
+    PG_ALLOC (m->u[s], r->n * dim);
+    PG_ALLOC (m->s1[s], r->n);
+    PG_ALLOC (m->s3[s], r->n);
+    PG_ALLOC (m->seen[s], g->n * dim);
+    PG_ALLOC (m->disturbed[s], (r->n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK);
     PG_ALLOC (g->list[s], r->n);
 done:
     return status;
@@ -135,8 +139,9 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
     galerkin_change_begin (g, !changes);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t n = changes ? count[s] : g->rows[s].n;
-        int known = changes && g->fresh[s] && !g->dilatation;  /* pressures of patches reach further */
-        g->fresh[s] = 0;
+        /* pressures of patches reach further */
+        int known = changes && g->measured.fresh[s] && !g->dilatation;
+        g->measured.fresh[s] = 0;
         PG_TRY (galerkin_own (g, state, s));
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], -1));
         if (n && !g->borrows[s]) PG_TRY (galerkin_evaluate (g, state, s, n, changes ? g->list[s] : NULL));
@@ -147,17 +152,17 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
             galerkin_silling_update (g, n, changes ? g->list[s] : NULL);
         }
         count[s] = n;
-        g->fresh[s] = known;
+        g->measured.fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
     if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, count));
     if (!changes) galerkin_eigen_at (g, state->time);  /* a run that goes on asks for stresses of its state */
-    if (!changes) g->all_stale = 1, g->revision++;
+    if (!changes) g->stiffness.all_stale = 1, g->stiffness.revision++;
     else galerkin_mark_stale (g, count);
-    if (g->has_T && (!changes || galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]))) {
+    if (g->supports.has_T && (!changes || galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]))) {
         PG_TRY (galerkin_basis_update (g));
         galerkin_change_basis (g);
-        g->revision++;
+        g->stiffness.revision++;
     }
 done:
     return status;
@@ -170,8 +175,8 @@ static int are_alone (const galerkin *g, const size_t *count)
     int loaded = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) loaded |= galerkin_boundary_loaded (g, s, count[s], g->list[s]);
     return !loaded && !g->whole && !g->dilatation && !g->kept && !galerkin_eigen_pairs (g)
-           && !(g->nnitsche && count[PG_FACETS]) && !(g->npenalty && count[PG_NODES])
-           && !(g->has_T && galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]));
+           && !(g->supports.nnitsche && count[PG_FACETS]) && !(g->supports.npenalty && count[PG_NODES])
+           && !(g->supports.has_T && galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]));
 }
 
 static pg_status galerkin_share_of (void *self, const double *x, const pg_changes *changes, double *y,
@@ -216,12 +221,13 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     PG_TRY (galerkin_sight_ready (g, 0));
     memset (residual, 0, ndof * sizeof *residual);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        if (s == g->bulk || s == PG_FACETS || g->npenalty || g->problem->nload) galerkin_measure (g, s, d);
+        if (s == g->bulk || s == PG_FACETS || g->supports.npenalty || g->problem->nload)
+            galerkin_measure (g, s, d);
     galerkin_bulk_force (g, d, residual);
     inside = galerkin_squared (g, residual);
     for (size_t i = 0; i < ndof; i++) residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
-    *reference = fmax (g->eigen_force, largest_of (g, inside, external, reaction));
+    *reference = fmax (g->eigen.force, largest_of (g, inside, external, reaction));
 done:
     return status;
 }
@@ -236,12 +242,12 @@ static pg_status galerkin_balance_lean (void *self, double t, const double *d, d
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
-    if (galerkin_eigen_pairs (g) || (g->dilatation && g->nnitsche))
+    if (galerkin_eigen_pairs (g) || (g->dilatation && g->supports.nnitsche))
         return galerkin_balance (self, t, d, residual, reference);
     PG_TRY (galerkin_sight_ready (g, 1));
     memset (residual, 0, ndof * sizeof *residual);
-    if (g->nnitsche || g->dilatation) galerkin_measure (g, PG_FACETS, d);
-    if (g->npenalty) galerkin_measure (g, PG_NODES, d);
+    if (g->supports.nnitsche || g->dilatation) galerkin_measure (g, PG_FACETS, d);
+    if (g->supports.npenalty) galerkin_measure (g, PG_NODES, d);
     galerkin_bulk_apply (g, d, residual);
     inside = galerkin_squared (g, residual);
     for (size_t i = 0; i < ndof; i++) residual[i] = -residual[i];
@@ -270,10 +276,16 @@ static pg_status galerkin_loads_of (void *self, double t, double *P)
     return PG_OK;
 }
 
-static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
-static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
+static unsigned long galerkin_revision (const void *self)
+{
+    return ((const galerkin *) self)->stiffness.revision;
+}
+static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->stiffness.op; }
 /* How many unknowns elimination takes out. */
-static size_t slaves_of (const galerkin *g) { return g->side[0].n + g->side[1].n + g->side[2].n; }
+static size_t slaves_of (const galerkin *g)
+{
+    return g->supports.side[0].n + g->supports.side[1].n + g->supports.side[2].n;
+}
 
 /* In equilibrium half the work of all pairs is what is stored, and facets are measured alone (nodes too,
  * where something acts there). Not where reactions of eliminated unknowns need forces of the whole body,
@@ -281,7 +293,7 @@ static size_t slaves_of (const galerkin *g) { return g->side[0].n + g->side[1].n
 static int boundary_tells (const galerkin *g, const pg_work_balance *out, int *nodes)
 {
     int points = slaves_of (g) > 0;
-    *nodes = g->npenalty > 0;
+    *nodes = g->supports.npenalty > 0;
     for (size_t l = 0; l < g->problem->nload; l++) {
         pg_load_kind kind = g->problem->load[l].kind;
         points |= kind == PG_BODY_FORCE || g->problem->load[l].cracks;
@@ -364,7 +376,7 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
         *seconds = 1.5e-7 * (double) (lent > bonds ? lent - bonds : 0);
         return 1;
     }
-    if (g->took && k-- == 0) {
+    if (g->stiffness.took && k-- == 0) {
         snprintf (what, 96, "the part of K that evaluation points have");
         snprintf (why, 160, "the patch test has assembled it, and no bond is broken");
         *seconds = NAN;

@@ -49,6 +49,76 @@ typedef struct {
     double silling;                                    /* Gs; 0: no stabilisation */
     double nitsche, penalty;                           /* factors of E / h, h the local spacing */
 } galerkin_options;
+/* The last measure of a displacement field. */
+typedef struct {
+    double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];
+    double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
+    double  *seen[PG_BOND_SETS];                       /* its displacement (ndof) */
+    /* it is that of `seen` and of the rows as they are, but for blocks of points that are disturbed (1) */
+    int      fresh[PG_BOND_SETS];
+    unsigned char *disturbed[PG_BOND_SETS];
+    galerkin_sight *sight[PG_BOND_SETS];               /* NULL until asked for */
+    const double *at_d;                                /* for workers */
+} galerkin_measured;
+
+/* How near bonds are to their limits, as far as it can be told of a point at a glance. */
+typedef struct {
+    /* galerkin_worst.c: a bound of what each point would use of the limits, NULL until asked for; 1: s1 and
+     * s3 of a point are no bounds; 1: those of a block of points are by the stress of the last measure */
+    double  *alone[PG_BOND_SETS];
+    unsigned char *exact[PG_BOND_SETS], *bounded[PG_BOND_SETS];
+    /* galerkin_stretch.c: the largest elongation in each block of points; place and displacement of every
+     * node, 8 numbers; NULL until asked for */
+    double  *longest[PG_BOND_SETS], *place_now;
+    /* bonds that a criterion looks at while they live (1 per bond); NULL until one does */
+    unsigned char *judged[PG_BOND_SETS];
+} galerkin_bounds;
+
+/* galerkin_eigenstrain.c */
+typedef struct {
+    /* the free strain of every point at that time, s (NULL: the scene has none); norm of the forces that hold
+     * the body against it, N; scratch (2 ndof) */
+    double  *strain[PG_BOND_SETS], time, force;
+    /* per load and set: free strain of factor 1 where that is a pattern times a factor of t, else NULL */
+    double **pattern;
+} galerkin_eigenstrain;
+
+/* K and M. */
+typedef struct {
+    pg_assembly *K;                                   /* NULL until someone asks for the matrix */
+    int      took;                                     /* 1: the bulk's part was pg_problem.intact's */
+    pg_assembly *M;                                   /* consistent mass, NULL until asked for */
+    int      all_stale;  /* rows of K to be gathered again: all, or those marked */
+    unsigned char *stale;
+    pg_operator   op;
+    double  *wide;                                     /* scratch: one row of blocks */
+    double  *diagonal;  /* of K; known as long as diagonal_of is the revision */
+    unsigned long diagonal_of;
+    unsigned long revision;                            /* of K and T */
+} galerkin_stiffness;
+
+/* Prescribed displacements. */
+typedef struct {
+    constraint *nitsche;  size_t nnitsche;                        /* Nitsche, ascending by point */
+    size_t  *nitsche_start;                                /* facet point -> its constraints */
+    /* penalty: point = index into penalty_node */
+    constraint *penalty;  size_t npenalty;
+    /* constraints of a node: penalty_start[k]..penalty_start[k + 1] */
+    int     *penalty_node; size_t npenalty_node; size_t *penalty_start;
+    pg_family penalty_family;  /* constrained nodes -> nodes (copy of the node rows' families) */
+    elimination side[3];
+    pg_sparse T;
+    int      has_T;
+} galerkin_supports;
+
+/* What finds a place among points and nodes; each NULL until a place is asked for. */
+typedef struct {
+    pg_nearest *near_point, *near_node;                /* bulk points, nodes */
+    pg_family_search *search;                          /* nodes that a place sees */
+    struct galerkin_alike *alike;                      /* places that see them alike, where there are such */
+    struct galerkin_again *again;                      /* places that were asked for before */
+} galerkin_places;
+
 typedef struct {
     const pg_problem *problem;
     const galerkin_options *options;                   /* pg_problem.options */
@@ -65,62 +135,19 @@ typedef struct {
     unsigned char *whole;  /* cells whose derivatives are corrected; NULL: not consistent */
     galerkin_ended *ended;                             /* NULL: no cells that could end at cracks */
     const int *material[PG_BOND_SETS];                 /* per point; the problem's */
-    /* of the last measure */
-    double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];
-    double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
-    /* galerkin_worst.c: a bound of what each point would use of the limits, NULL until asked for; 1: s1 and
-     * s3 of a point are no bounds; 1: those of a block of points are by the stress of the last measure */
-    double  *alone[PG_BOND_SETS];
-    unsigned char *exact[PG_BOND_SETS], *bounded[PG_BOND_SETS];
-    /* galerkin_stretch.c: the largest elongation in each block of points; place and displacement of every
-     * node, 8 numbers; NULL until asked for */
-    double  *longest[PG_BOND_SETS], *place_now;
-    galerkin_sight *sight[PG_BOND_SETS];               /* NULL until asked for */
-    double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof) */
-    /* the measure is that of `seen` and of the rows as they are, but for blocks of points that are disturbed
-     * (1) */
-    int      fresh[PG_BOND_SETS];
-    unsigned char *disturbed[PG_BOND_SETS];
-    /* galerkin_eigenstrain.c: the free strain of every point at that time, s (NULL: the scene has none);
-     * norm of
-     * the forces that hold the body against it, N; scratch (2 ndof) */
-    double  *eigen[PG_BOND_SETS], eigen_time, eigen_force;
-    /* per load and set: free strain of factor 1 where that is a pattern times a factor of t, else NULL */
-    double **eigen_pattern;
+    galerkin_measured    measured;
+    galerkin_bounds      bounds;
+    galerkin_eigenstrain eigen;
+    galerkin_stiffness   stiffness;
+    galerkin_supports    supports;
+    galerkin_places      places;
     galerkin_slices *slices;
     double  *kept, *place;  /* galerkin_silling.c; NULL: no stabilisation */
     galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
-    pg_assembly *K;                                   /* NULL until someone asks for the matrix */
-    int      took;                                     /* 1: the bulk's part was pg_problem.intact's */
-    pg_assembly *M;                                   /* consistent mass, NULL until asked for */
-    int      all_stale;  /* rows of K to be gathered again: all, or those marked */
-    unsigned char *stale;
-    pg_operator   op;
-    double  *wide;                                     /* scratch: one row of blocks */
-    double  *diagonal;  /* of K; known as long as diagonal_of is the revision */
-    unsigned long diagonal_of;
-    constraint *nitsche;  size_t nnitsche;                        /* Nitsche, ascending by point */
-    size_t  *nitsche_start;                                /* facet point -> its constraints */
-    /* penalty: point = index into penalty_node */
-    constraint *penalty;  size_t npenalty;
-    /* constraints of a node: penalty_start[k]..penalty_start[k + 1] */
-    int     *penalty_node; size_t npenalty_node; size_t *penalty_start;
-    pg_family penalty_family;  /* constrained nodes -> nodes (copy of the node rows' families) */
-    elimination side[3];
-    pg_sparse T;
-    int      has_T;
-    unsigned long revision;                            /* of K and T */
     galerkin_change *change;                           /* NULL until someone asks for it */
     double  *work;                                     /* ndof */
-    const double *at_d;                                /* for workers */
-    /* bonds that a criterion looks at while they live (1 per bond); NULL until one does */
-    unsigned char *judged[PG_BOND_SETS];
     int     *ends;  /* bonds that end at each node (n), for damage; NULL until asked for */
     size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh) */
-    pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
-    pg_family_search *search;            /* nodes that a place sees; likewise */
-    struct galerkin_alike *alike;        /* places that see them alike; likewise, where there are such */
-    struct galerkin_again *again;        /* places that were asked for before; likewise */
 } galerkin;
 
 /* scene: entries of pg_method */

@@ -10,11 +10,11 @@
 void galerkin_basis_free (galerkin *g)
 {
     for (int k = 0; k < 3; k++) {
-        elimination *e = &g->side[k];
+        elimination *e = &g->supports.side[k];
         pg_free (e->slave), pg_free (e->load), pg_free (e->master), pg_free (e->inverse), pg_free (e->X);
         memset (e, 0, sizeof *e);
     }
-    pg_sparse_clear (&g->T);
+    pg_sparse_clear (&g->supports.T);
 }
 
 /* The points whose displacement along axis k is prescribed by elimination, ascending, each with the load
@@ -24,7 +24,7 @@ static pg_status find_slaves (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
-    elimination *e = &g->side[k];
+    elimination *e = &g->supports.side[k];
     size_t cap = 0, cap_load = 0;
     e->component = k;
     for (size_t i = 0; i < g->n; i++) role[i] = -1;
@@ -51,7 +51,7 @@ done:
 static pg_status find_masters (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
-    elimination *e = &g->side[k];
+    elimination *e = &g->supports.side[k];
     const pg_family *f = &g->rows[PG_NODES].family;
     size_t cap = 0;
     if (g->problem->approx.type->interpolates) goto done;
@@ -83,27 +83,29 @@ static pg_status make_T (galerkin *g)
     size_t dim = (size_t) g->dim, ndof = g->n * dim, nnz = ndof, nslave = 0;
     char *slave = NULL;
     long *column = NULL;
+    pg_sparse *T = &g->supports.T;
     PG_ALLOC (slave, ndof);
     PG_ALLOC (column, ndof);
     for (size_t k = 0; k < dim; k++) {
-        const elimination *e = &g->side[k];
+        const elimination *e = &g->supports.side[k];
         nnz += e->n * e->nmaster, nslave += e->n;
         for (size_t s = 0; s < e->n; s++) slave[(size_t) e->slave[s] * dim + k] = 1;
     }
-    PG_TRY (pg_sparse_create (&g->T, ndof, ndof - nslave, nnz - nslave, 0));
+    PG_TRY (pg_sparse_create (T, ndof, ndof - nslave, nnz - nslave, 0));
     long at = 0, col = 0;
     for (size_t i = 0; i < ndof; i++) {
         if (slave[i]) continue;
-        const elimination *e = &g->side[i % dim];
+        const elimination *e = &g->supports.side[i % dim];
         int is_master = 0;
         for (size_t m = 0; m < e->nmaster && !is_master; m++) is_master = (size_t) e->master[m] == i / dim;
         size_t s = 0;
         for (; is_master && s < e->n && (size_t) e->slave[s] < i / dim; s++)
-            g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
-        g->T.value[at] = 1;
-        g->T.row[at++] = (long) i;
-        for (; is_master && s < e->n; s++) g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
-        g->T.start[++col] = at;
+            T->row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
+        T->value[at] = 1;
+        T->row[at++] = (long) i;
+        for (; is_master && s < e->n; s++)
+            T->row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
+        T->start[++col] = at;
     }
 done:
     pg_free (slave), pg_free (column);
@@ -115,19 +117,20 @@ done:
 static void fill_T (galerkin *g)
 {
     size_t dim = (size_t) g->dim;
-    for (size_t c = 0; c < g->T.ncol; c++) {
-        if (g->T.start[c + 1] - g->T.start[c] == 1) continue;
-        size_t k = (size_t) g->T.row[g->T.start[c]] % dim, m = 0, s = 0;
-        const elimination *e = &g->side[k];
+    pg_sparse *T = &g->supports.T;
+    for (size_t c = 0; c < T->ncol; c++) {
+        if (T->start[c + 1] - T->start[c] == 1) continue;
+        size_t k = (size_t) T->row[T->start[c]] % dim, m = 0, s = 0;
+        const elimination *e = &g->supports.side[k];
         long own = -1;
         /* the unit entry: a master's own row */
-        for (long q = g->T.start[c]; own < 0; q++) if (g->T.value[q] == 1) {
-            size_t node = (size_t) g->T.row[q] / dim;
+        for (long q = T->start[c]; own < 0; q++) if (T->value[q] == 1) {
+            size_t node = (size_t) T->row[q] / dim;
             for (m = 0; m < e->nmaster && (size_t) e->master[m] != node; m++) continue;
             if (m < e->nmaster) own = q;
         }
-        for (long q = g->T.start[c]; q < g->T.start[c + 1]; q++)
-            if (q != own) g->T.value[q] = -e->X[s++ * e->nmaster + m];
+        for (long q = T->start[c]; q < T->start[c + 1]; q++)
+            if (q != own) T->value[q] = -e->X[s++ * e->nmaster + m];
     }
 }
 
@@ -141,10 +144,10 @@ pg_status galerkin_basis_create (galerkin *g)
     for (int k = 0; k < g->dim; k++) {
         PG_TRY (find_slaves (g, k, role));
         PG_TRY (find_masters (g, k, role));
-        slaves += g->side[k].n;
+        slaves += g->supports.side[k].n;
     }
-    g->has_T = slaves > 0;
-    if (g->has_T) PG_TRY (make_T (g));
+    g->supports.has_T = slaves > 0;
+    if (g->supports.has_T) PG_TRY (make_T (g));
 done:
     pg_free (role);
     return status;
@@ -219,10 +222,10 @@ pg_status galerkin_basis_update (galerkin *g)
 {
     pg_status status = PG_OK;
     int *index = NULL;
-    if (!g->has_T) return PG_OK;
+    if (!g->supports.has_T) return PG_OK;
     PG_ALLOC (index, g->n);
     for (int k = 0; k < g->dim; k++) {
-        status = update_side (g, &g->side[k], index);
+        status = update_side (g, &g->supports.side[k], index);
         if (status == PG_E_MEMORY) goto done;
         if (status != PG_OK)
             PG_FAIL (PG_E_SINGULAR,
@@ -240,7 +243,7 @@ done:
 int galerkin_basis_touched (const galerkin *g, size_t count, const size_t *list)
 {
     for (int k = 0; k < g->dim; k++) {
-        const elimination *e = &g->side[k];
+        const elimination *e = &g->supports.side[k];
         size_t s = 0;
         for (size_t i = 0; i < count && e->inverse; i++) {  /* both ascend */
             while (s < e->n && (size_t) e->slave[s] < list[i]) s++;
@@ -254,7 +257,7 @@ int galerkin_basis_touched (const galerkin *g, size_t count, const size_t *list)
 const pg_sparse *galerkin_basis (void *self)
 {
     galerkin *g = self;
-    return g->has_T ? &g->T : NULL;
+    return g->supports.has_T ? &g->supports.T : NULL;
 }
 
 /* What the load prescribes at slave s, m, at time t (s; quasi-static: the load factor). */
@@ -272,7 +275,7 @@ pg_status galerkin_impose (void *self, double t, double *d)
     galerkin *g = self;
     size_t dim = (size_t) g->dim;
     for (size_t k = 0; k < dim; k++) {
-        const elimination *e = &g->side[k];
+        const elimination *e = &g->supports.side[k];
         for (size_t s = 0; s < e->n; s++) g->work[s] = goal_of (g, e, s, t);
         for (size_t s = 0; s < e->n; s++) {
             double value = 0;
@@ -294,7 +297,7 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
 {
     size_t dim = (size_t) g->dim;
     for (size_t k = 0; k < dim; k++) {
-        const elimination *e = &g->side[k];
+        const elimination *e = &g->supports.side[k];
         for (size_t s = 0; s < e->n; s++, at++) {
             double force = 0, place[3];
             if (!e->inverse) force = -residual[(size_t) e->slave[s] * dim + k];

@@ -10,9 +10,10 @@ enum { BATCH = GALERKIN_BATCH };
 
 void galerkin_principal (galerkin *g, int set, size_t p)
 {
+    galerkin_measured *m = &g->measured;
     double principal[3];
-    pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
-    g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];
+    pg_principal (g->dim, 1, m->stress[set] + p * (size_t) g->nv, m->zz[set] + p, principal);
+    m->s1[set][p] = principal[0], m->s3[set][p] = principal[2];
 }
 
 /* What some bonds show against one law: utilisation, and the factor by which a proportional load may grow;
@@ -114,15 +115,15 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         for (size_t a = 0; a < dim; a++) {
             xi[k * dim + a] = g->problem->cloud.x[j * dim + a] - r->x[p * dim + a];
-            eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
+            eta[k * dim + a] = g->measured.u[PG_NODES][j * dim + a] - g->measured.u[s->set][p * dim + a];
         }
     }
-    if (stretch && g->eigen[s->set]) galerkin_eigen_bonds (g, s->set, count, bond, point, xi, eta);
+    if (stretch && g->eigen.strain[s->set]) galerkin_eigen_bonds (g, s->set, count, bond, point, xi, eta);
     for (size_t k = 0; graded && k < count; k++) reach[k] = galerkin_reach (g, s->set, point[k], bond[k]);
     for (size_t k = 0; stress && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
-        s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
-        s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
+        s1[k] = 0.5 * (g->measured.s1[s->set][p] + g->measured.s1[PG_NODES][j]);
+        s3[k] = 0.5 * (g->measured.s3[s->set][p] + g->measured.s3[PG_NODES][j]);
     }
     pg_bond_measures m = { .n = count,
                            .dim = g->dim,
@@ -148,7 +149,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
     const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set],
-                        *judged = g->judged[s->set];
+                        *judged = g->bounds.judged[s->set];
     size_t base = g->problem->first_bond[s->set], bond[BATCH], point[BATCH], to[BATCH],
            count = 0;
     (void) thread;
@@ -170,11 +171,11 @@ pg_status galerkin_find_judged (galerkin *g)
     const pg_problem *q = g->problem;
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_family *f = &g->rows[set].family;
-        if (g->judged[set]) continue;
-        PG_ALLOC (g->judged[set], f->start[f->n]);
+        if (g->bounds.judged[set]) continue;
+        PG_ALLOC (g->bounds.judged[set], f->start[f->n]);
         for (size_t p = 0; p < f->n; p++)
             for (size_t e = f->start[p]; e < f->start[p + 1]; e++)
-                g->judged[set][e] = !q->exempt[set][p] && !q->exempt[PG_NODES][f->node[e]]
+                g->bounds.judged[set][e] = !q->exempt[set][p] && !q->exempt[PG_NODES][f->node[e]]
                                     && !pg_problem_no_bond (q, set, p, e);
     }
 done:
@@ -233,7 +234,7 @@ static pg_status judge_group (galerkin *g, const pg_state *state, const pg_bond_
             size_t e = group->bond[k] - base;
             if (utilisation) utilisation[k] = 0;
             if (factor) factor[k] = INFINITY;
-            if (!state->alive[base + e] || !g->judged[set][e]) continue;
+            if (!state->alive[base + e] || !g->bounds.judged[set][e]) continue;
             bond[count] = e, to[count] = k, point[count++] = group->owner[k];
             if (count == BATCH) galerkin_judge (&s, count, bond, point, to), count = 0;
         }
@@ -248,7 +249,7 @@ static double elastic_along (const galerkin *g, size_t p, size_t j, const double
 {
     static const int shear[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
-    const double *ei = g->strain[PG_NODES] + p * nv, *ej = g->strain[PG_NODES] + j * nv;
+    const double *ei = g->measured.strain[PG_NODES] + p * nv, *ej = g->measured.strain[PG_NODES] + j * nv;
     double sum = 0;
     for (size_t a = 0; a < dim; a++) sum += 0.5 * (ei[a] + ej[a]) * xi[a] * n[a];
     for (size_t k = dim; k < nv; k++) {                /* engineering shear, half of it each way */
@@ -263,7 +264,7 @@ static double elastic_along (const galerkin *g, size_t p, size_t j, const double
 static double overlap_along (const galerkin *g, size_t p, size_t j, const double *xi, const double *n)
 {
     size_t dim = (size_t) g->dim;
-    const double *u = g->u[PG_NODES];
+    const double *u = g->measured.u[PG_NODES];
     double approach = 0;
     for (size_t a = 0; a < dim; a++) approach -= n[a] * (u[j * dim + a] - u[p * dim + a]);
     return approach - fmax (-elastic_along (g, p, j, xi, n), 0);

@@ -123,7 +123,7 @@ double galerkin_bulk_energy (const galerkin *g, const double *d)
         double w = 0;
         if (!pg_problem_owns (g->problem, g->bulk, p)) continue;
         for (size_t v = 0; v < nv; v++)
-            w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
+            w += 0.5 * g->measured.stress[g->bulk][p * nv + v] * g->measured.strain[g->bulk][p * nv + v];
         sum += r->weight[p] * (w - galerkin_eigen_energy (g, p));
         if (g->kept) sum += galerkin_silling_energy (g, p, d);
     }

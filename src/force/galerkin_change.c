@@ -136,10 +136,11 @@ pg_status galerkin_change_points (galerkin *g, int set, size_t count, const size
     for (size_t k = 0; k < count; k++) {
         if (set == g->bulk && !g->whole)
             PG_TRY (add_item (g, &g->sums.family, galerkin_bulk_blocks, list[k], sign));
-        if (set == PG_FACETS && g->nnitsche)
+        if (set == PG_FACETS && g->supports.nnitsche)
             PG_TRY (add_item (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, list[k], sign));
-        long q = set == PG_NODES && g->npenalty ? galerkin_penalty_of (g, list[k]) : -1;
-        if (q >= 0) PG_TRY (add_item (g, &g->penalty_family, galerkin_penalty_blocks, (size_t) q, sign));
+        long q = set == PG_NODES && g->supports.npenalty ? galerkin_penalty_of (g, list[k]) : -1;
+        if (q >= 0) PG_TRY (add_item (g, &g->supports.penalty_family, galerkin_penalty_blocks, (size_t) q,
+                                      sign));
     }
 done:
     return status;

@@ -311,7 +311,7 @@ pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int al
         PG_TRY (rebuild (g, state, c));
         if (!all) PG_TRY (galerkin_change_patch (g, c, supported, 1));
         for (size_t e = d->family.start[c]; !all && e < d->family.start[c + 1]; e++)
-            g->stale[d->family.node[e]] = 1;
+            g->stiffness.stale[d->family.node[e]] = 1;
     }
 done:
     return status;
@@ -453,8 +453,8 @@ static double pressure_at (const galerkin *g, size_t p, const double *x)
 /* A pressure is on all normal stresses, in a plane also on the one across it. */
 static void add_pressure (galerkin *g, int set, size_t p, double value)
 {
-    for (int k = 0; k < g->dim; k++) g->stress[set][p * (size_t) g->nv + (size_t) k] += value;
-    if (g->dim == 2) g->zz[set][p] += value;
+    for (int k = 0; k < g->dim; k++) g->measured.stress[set][p * (size_t) g->nv + (size_t) k] += value;
+    if (g->dim == 2) g->measured.zz[set][p] += value;
 }
 
 /* Pressure at nodes that are no evaluation points: the mean of what the patches of the points that see

@@ -56,7 +56,7 @@ static size_t behind (const galerkin *g, size_t f, const size_t **entry)
 {
     const pg_patches *q = g->problem->patches;
     long home = g->dilatation->home[f];
-    if (g->nitsche_start[f + 1] == g->nitsche_start[f] || home < 0) return 0;
+    if (g->supports.nitsche_start[f + 1] == g->supports.nitsche_start[f] || home < 0) return 0;
     *entry = q->entry + q->start[home];
     return q->start[home + 1] - q->start[home];
 }
@@ -166,10 +166,10 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
         galerkin_dilatation_polynomials (g, a, r->x + f * dim, psi);
         for (size_t e = r->family.start[f]; e < r->family.start[f + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
-            for (size_t q = g->nitsche_start[f]; q < g->nitsche_start[f + 1]; q++)
+            for (size_t q = g->supports.nitsche_start[f]; q < g->supports.nitsche_start[f + 1]; q++)
                 for (int t = 0; t < a->terms; t++)
-                    a->s[((size_t) t * m + at) * dim + (size_t) g->nitsche[q].component] +=
-                        weight * psi[t] * normal (g, f, g->nitsche[q].component) * r->N[e];
+                    a->s[((size_t) t * m + at) * dim + (size_t) g->supports.nitsche[q].component] +=
+                        weight * psi[t] * normal (g, f, g->supports.nitsche[q].component) * r->N[e];
         }
     }
 }
@@ -200,9 +200,9 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     for (size_t c = 0; d && c < g->problem->patches->n; c++)
         for (size_t k = 0; k < d->patch[c].n; k++)
             memset (d->patch[c].part[k].gap, 0, sizeof d->patch[c].part[k].gap);
-    for (size_t i = 0; d && i < g->nnitsche; i++) {
-        const constraint *q = &g->nitsche[i];
-        double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
+    for (size_t i = 0; d && i < g->supports.nnitsche; i++) {
+        const constraint *q = &g->supports.nitsche[i];
+        double gap = g->measured.u[PG_FACETS][q->point * dim + (size_t) q->component]
                      - galerkin_prescribed (g, q, PG_FACETS, t);
         for (size_t k = behind (g, q->point, &entry); k-- > 0;) {
             galerkin_part *a = part_of (g, entry[k]);

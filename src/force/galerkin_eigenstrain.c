@@ -15,38 +15,40 @@ static double across (const pg_material *m) { return m->mode == PG_PLANE_STRAIN 
 
 pg_status galerkin_eigen_create (galerkin *g)
 {
+    galerkin_eigenstrain *e = &g->eigen;
     pg_status status = PG_OK;
     if (!pg_problem_strained (g->problem)) return PG_OK;
     const pg_problem *p = g->problem;
-    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (g->eigen[s], g->rows[s].n);
-    PG_ALLOC (g->eigen_pattern, p->nload * PG_BOND_SETS);
+    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (e->strain[s], g->rows[s].n);
+    PG_ALLOC (e->pattern, p->nload * PG_BOND_SETS);
     for (size_t l = 0; l < p->nload; l++)
         for (int s = 0; s < PG_BOND_SETS && p->load[l].kind == PG_EIGENSTRAIN; s++) {
             if (!pg_load_separates (&p->load[l])) continue;
             double *pattern = NULL;
             PG_ALLOC (pattern, g->rows[s].n);
-            g->eigen_pattern[l * PG_BOND_SETS + (size_t) s] = pattern;
+            e->pattern[l * PG_BOND_SETS + (size_t) s] = pattern;
             for (size_t q = 0; q < g->rows[s].n; q++)
                 pattern[q] = p->load[l].per_material[g->material[s][q]]
                              * pg_load_pattern (&p->load[l], 0, p->dim, g->rows[s].x + q * (size_t) p->dim);
         }
-    g->eigen_time = NAN;
+    e->time = NAN;
 done:
     return status;
 }
 
 void galerkin_eigen_free (galerkin *g)
 {
-    for (int s = 0; s < PG_BOND_SETS; s++) pg_free (g->eigen[s]);
-    for (size_t k = 0; g->eigen_pattern && k < g->problem->nload * PG_BOND_SETS; k++)
-        pg_free (g->eigen_pattern[k]);
-    pg_free (g->eigen_pattern);
+    galerkin_eigenstrain *e = &g->eigen;
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_free (e->strain[s]);
+    for (size_t k = 0; e->pattern && k < g->problem->nload * PG_BOND_SETS; k++)
+        pg_free (e->pattern[k]);
+    pg_free (e->pattern);
 }
 
 /* A point that sees too little for a strain has no free one either: it carries no stress. */
 static double free_strain (const galerkin *g, int set, size_t p)
 {
-    return g->rows[set].grade[p] < PG_GRADE_SHEPARD ? g->eigen[set][p] : 0;
+    return g->rows[set].grade[p] < PG_GRADE_SHEPARD ? g->eigen.strain[set][p] : 0;
 }
 
 /* Stress at a point by its strain e less the free one. */
@@ -56,8 +58,8 @@ void galerkin_eigen_stress (const galerkin *g, int set, size_t p, const double *
     double elastic[6], free = free_strain (g, set, p), part = held (m) * free;
     memcpy (elastic, e, (size_t) g->nv * sizeof *e);
     for (int k = 0; k < g->dim; k++) elastic[k] -= part;
-    m->type->stress (m, 1, elastic, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p);
-    g->zz[set][p] -= across (m) * free;
+    m->type->stress (m, 1, elastic, g->measured.stress[set] + p * (size_t) g->nv, g->measured.zz[set] + p);
+    g->measured.zz[set][p] -= across (m) * free;
 }
 
 /* The size of the forces that hold the body unstrained, N: with these, where nothing else loads it, residuals
@@ -69,7 +71,7 @@ static double size_of_forces (const galerkin *g)
     for (size_t p = 0; p < g->sums.n; p++) {
         const pg_material *m = galerkin_material (g, g->bulk, p);
         if (!pg_problem_owns (g->problem, g->bulk, p)) continue;
-        none[0] = held (m) * g->eigen[g->bulk][p];
+        none[0] = held (m) * g->eigen.strain[g->bulk][p];
         m->type->stress (m, 1, none, s, &zz);
         double f = g->problem->rows[g->bulk].weight[p] * s[0] / pg_problem_spacing (g->problem, g->bulk, p);
         sum += f * f;
@@ -82,26 +84,27 @@ static double size_of_forces (const galerkin *g)
 static void add_load (galerkin *g, size_t l, int s, double t)
 {
     const pg_load *load = &g->problem->load[l];
-    const double *pattern = g->eigen_pattern[l * PG_BOND_SETS + (size_t) s];
+    const double *pattern = g->eigen.pattern[l * PG_BOND_SETS + (size_t) s];
     size_t dim = (size_t) g->dim;
     double factor = pattern ? pg_load_factor (load, t) : 0;
     for (size_t p = 0; p < g->rows[s].n; p++)
-        g->eigen[s][p] += pattern ? factor * pattern[p]
+        g->eigen.strain[s][p] += pattern ? factor * pattern[p]
                                   : load->per_material[g->material[s][p]]
                                         * pg_load_value (load, 0, g->dim, g->rows[s].x + p * dim, t);
 }
 
 void galerkin_eigen_at (galerkin *g, double t)
 {
-    if (!g->eigen[PG_NODES] || t == g->eigen_time) return;
+    galerkin_eigenstrain *e = &g->eigen;
+    if (!e->strain[PG_NODES] || t == e->time) return;
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        memset (g->eigen[s], 0, g->rows[s].n * sizeof *g->eigen[s]);
+        memset (e->strain[s], 0, g->rows[s].n * sizeof *e->strain[s]);
         for (size_t l = 0; l < g->problem->nload; l++)
             if (g->problem->load[l].kind == PG_EIGENSTRAIN) add_load (g, l, s, t);
-        g->fresh[s] = 0;
+        g->measured.fresh[s] = 0;
     }
-    g->eigen_time = t;
-    g->eigen_force = size_of_forces (g);
+    e->time = t;
+    e->force = size_of_forces (g);
 }
 
 /* Takes what the free strain at a place makes off its stress (xx yy zz xy yz zx); q: an evaluation point of
@@ -109,7 +112,7 @@ void galerkin_eigen_at (galerkin *g, double t)
  * material there. */
 void galerkin_eigen_relieve (const galerkin *g, double t, const double *x, size_t q, double *stress)
 {
-    if (!g->eigen[PG_NODES]) return;
+    if (!g->eigen.strain[PG_NODES]) return;
     const pg_problem *p = g->problem;
     const pg_material *m = galerkin_material (g, g->bulk, q);
     double free = 0, e[6] = { 0 }, s[6] = { 0 }, zz = 0;
@@ -128,7 +131,8 @@ void galerkin_eigen_bonds (const galerkin *g, int set, size_t count, const size_
 {
     size_t dim = (size_t) g->dim;
     for (size_t k = 0; k < count; k++) {
-        double here = g->eigen[set][point[k]], there = g->eigen[PG_NODES][g->rows[set].family.node[bond[k]]];
+        double here = g->eigen.strain[set][point[k]],
+            there = g->eigen.strain[PG_NODES][g->rows[set].family.node[bond[k]]];
         for (size_t a = 0; a < dim; a++) eta[k * dim + a] -= 0.5 * (here + there) * xi[k * dim + a];
     }
 }
@@ -136,18 +140,22 @@ void galerkin_eigen_bonds (const galerkin *g, int set, size_t count, const size_
 /* sigma : eps* at a point of the bulk over eps*, Pa. */
 static double pressure (const galerkin *g, size_t p)
 {
-    double sum = g->dim == 2 ? g->zz[g->bulk][p] : 0;
-    for (int k = 0; k < g->dim; k++) sum += g->stress[g->bulk][p * (size_t) g->nv + (size_t) k];
+    double sum = g->dim == 2 ? g->measured.zz[g->bulk][p] : 0;
+    for (int k = 0; k < g->dim; k++) sum += g->measured.stress[g->bulk][p * (size_t) g->nv + (size_t) k];
     return sum;
 }
 
 /* What the energy of total strains at a point has too much, J/m^3. */
 double galerkin_eigen_energy (const galerkin *g, size_t p)
 {
-    return g->eigen[PG_NODES] ? 0.5 * pressure (g, p) * free_strain (g, g->bulk, p) : 0;
+    return g->eigen.strain[PG_NODES] ? 0.5 * pressure (g, p) * free_strain (g, g->bulk, p) : 0;
 }
 
-size_t galerkin_eigen_pairs (const galerkin *g) { return g->eigen[PG_NODES] ? g->sums.n + g->nnitsche : 0; }
+size_t galerkin_eigen_pairs (const galerkin *g)
+{
+    return g->eigen.strain[PG_NODES]
+           ? g->sums.n + g->supports.nnitsche : 0;
+}
 
 /* Work of a unit free strain on the gap of a constraint by Nitsche's terms, J: what these store has the
  * traction times the gap in it, so that a free strain works on the gap by the traction that it would take off
@@ -158,7 +166,7 @@ static double on_gap (const galerkin *g, const constraint *q, double t)
     const pg_material *m = galerkin_material (g, PG_FACETS, q->point);
     const double *normal = g->problem->facet_normal + q->point * dim;
     double e[6] = { 0 }, s[6], zz, traction = 0,
-           gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
+        gap = g->measured.u[PG_FACETS][q->point * dim + (size_t) q->component]
                  - galerkin_prescribed (g, q, PG_FACETS, t);
     for (size_t k = 0; k < dim; k++) e[k] = held (m);
     m->type->stress (m, 1, e, s, &zz);
@@ -169,14 +177,15 @@ static double on_gap (const galerkin *g, const constraint *q, double t)
 /* Pairs from number `at` on; they are no force on the body. */
 void galerkin_eigen_work (const galerkin *g, double t, pg_work_balance *out, size_t at)
 {
-    if (!g->eigen[PG_NODES]) return;
+    const galerkin_supports *c = &g->supports;
+    if (!g->eigen.strain[PG_NODES]) return;
     for (size_t p = 0; p < g->sums.n; p++, at++) {
         out->force[at] = pg_problem_owns (g->problem, g->bulk, p) ? -g->sums.weight[p] * pressure (g, p) : 0;
         out->displacement[at] = free_strain (g, g->bulk, p);
     }
-    for (size_t i = 0; i < g->nnitsche; i++, at++) {
-        out->force[at] = pg_problem_owns (g->problem, PG_FACETS, g->nitsche[i].point)
-                             ? on_gap (g, &g->nitsche[i], t) : 0;
-        out->displacement[at] = free_strain (g, PG_FACETS, g->nitsche[i].point);
+    for (size_t i = 0; i < c->nnitsche; i++, at++) {
+        out->force[at] = pg_problem_owns (g->problem, PG_FACETS, c->nitsche[i].point)
+                             ? on_gap (g, &c->nitsche[i], t) : 0;
+        out->displacement[at] = free_strain (g, PG_FACETS, c->nitsche[i].point);
     }
 }

@@ -354,9 +354,9 @@ static const double *spring_matrix (element_list *b, size_t p, size_t m, const i
         depth = fmin (depth, fmax (0, behind));
     }
     memset (b->K, 0, width * width * sizeof *b->K);
-    for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
-        size_t k = (size_t) g->nitsche[i].component;
-        double s = galerkin_nitsche_stiffness (g, &g->nitsche[i]);
+    for (size_t i = g->supports.nitsche_start[p]; i < g->supports.nitsche_start[p + 1]; i++) {
+        size_t k = (size_t) g->supports.nitsche[i].component;
+        double s = galerkin_nitsche_stiffness (g, &g->supports.nitsche[i]);
         s /= 1 + s * depth / between;
         for (size_t a = 0; a < m; a++)
             for (size_t e = 0; e < m; e++) b->K[(a * dim + k) * width + e * dim + k] = s * phi[a] * phi[e];
@@ -416,9 +416,9 @@ static pg_status list_stiff (const galerkin *g, pg_elements *out)
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[PG_NODES];
     size_t dim = (size_t) g->dim, n = 0, nnz = 0;
-    for (size_t i = 0; i < g->npenalty; i++) {
-        size_t node = (size_t) g->penalty_node[g->penalty[i].point];
-        if (!elements_stiff (g, &g->penalty[i]) || r->grade[node] >= PG_GRADE_DEAD) continue;
+    for (size_t i = 0; i < g->supports.npenalty; i++) {
+        size_t node = (size_t) g->supports.penalty_node[g->supports.penalty[i].point];
+        if (!elements_stiff (g, &g->supports.penalty[i]) || r->grade[node] >= PG_GRADE_DEAD) continue;
         n++, nnz += r->family.start[node + 1] - r->family.start[node];
     }
     if (n == 0) return PG_OK;
@@ -426,9 +426,9 @@ static pg_status list_stiff (const galerkin *g, pg_elements *out)
     PG_ALLOC (out->held, n);
     PG_ALLOC (out->holds, n);
     size_t at = 0, c = 0;
-    for (size_t i = 0; i < g->npenalty; i++) {
-        const constraint *q = &g->penalty[i];
-        size_t node = (size_t) g->penalty_node[q->point], k = (size_t) q->component;
+    for (size_t i = 0; i < g->supports.npenalty; i++) {
+        const constraint *q = &g->supports.penalty[i];
+        size_t node = (size_t) g->supports.penalty_node[q->point], k = (size_t) q->component;
         if (!elements_stiff (g, q) || r->grade[node] >= PG_GRADE_DEAD) continue;
         for (size_t e = r->family.start[node]; e < r->family.start[node + 1]; e++, at++)
             out->W.row[at] = (long) ((size_t) r->family.node[e] * dim + k),
@@ -444,10 +444,10 @@ done:
 static void add_penalties (const galerkin *g, pg_block_matrix *Q)
 {
     size_t dim = (size_t) g->dim;
-    for (size_t i = 0; i < g->npenalty; i++) {
-        const constraint *q = &g->penalty[i];
+    for (size_t i = 0; i < g->supports.npenalty; i++) {
+        const constraint *q = &g->supports.penalty[i];
         if (elements_stiff (g, q)) continue;
-        pg_block_add_diagonal (Q, (size_t) g->penalty_node[q->point] * dim + (size_t) q->component,
+        pg_block_add_diagonal (Q, (size_t) g->supports.penalty_node[q->point] * dim + (size_t) q->component,
                                galerkin_penalty_stiffness (g, q));
     }
 }

@@ -367,8 +367,8 @@ static pg_status list_supports (element_list *b)
     pg_status status = PG_OK;
     const galerkin *g = b->g;
     int node[MOST_NODES];
-    for (size_t p = 0; g->nnitsche && p < g->rows[PG_FACETS].n; p++)
-        if (g->nitsche_start[p + 1] > g->nitsche_start[p])
+    for (size_t p = 0; g->supports.nnitsche && p < g->rows[PG_FACETS].n; p++)
+        if (g->supports.nitsche_start[p + 1] > g->supports.nitsche_start[p])
             PG_TRY (append (b, p, SPRINGS, 1, near_nodes (g, PG_FACETS, p, near_facet, node), node));
 done:
     return status;

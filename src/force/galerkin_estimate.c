@@ -240,7 +240,7 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
             PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->law[m].name);
     }
     galerkin_measure (g, g->bulk, d);
-    r.stress = g->stress[g->bulk];
+    r.stress = g->measured.stress[g->bulk];
     pg_parallel_heavy (g->threads, g->n, fit_nodes, &r);
     pg_parallel (g->threads, points, compare_points, &r);
     add_up (&r, out);

@@ -107,7 +107,8 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         *components = g->nv, *unit = strcmp (name, "stress") == 0 ? "Pa" : "";
         galerkin_eigen_at (g, state->time);
         galerkin_measure (g, PG_NODES, d);
-        memcpy (value, **unit ? g->stress[PG_NODES] : g->strain[PG_NODES], g->n * nv * sizeof *value);
+        memcpy (value, **unit ? g->measured.stress[PG_NODES] : g->measured.strain[PG_NODES],
+                g->n * nv * sizeof *value);
     }
 done:
     return status;

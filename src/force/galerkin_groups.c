@@ -262,7 +262,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const galerkin *g = o->g;
     const pg_family *f = &g->rows[o->set].family;
     size_t base = g->problem->first_bond[o->set], entry[CHUNK], size = o->width * o->count;
-    const unsigned char *alive = o->state->alive + base, *judged = g->judged[o->set],
+    const unsigned char *alive = o->state->alive + base, *judged = g->bounds.judged[o->set],
                         *left_out = o->left_out + base;
     double *room = o->room + (size_t) thread * o->room_size, *place = room + o->room_size - size,
            *top = o->top + (size_t) thread * o->count;

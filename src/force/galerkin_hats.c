@@ -130,16 +130,17 @@ done:
 typedef struct { const pg_rows *rows; size_t point, component; double stiffness; } support;
 static int support_of (const galerkin *g, size_t k, support *s)
 {
-    if (k < g->nnitsche) {
-        const constraint *q = &g->nitsche[k];
+    const galerkin_supports *c = &g->supports;
+    if (k < c->nnitsche) {
+        const constraint *q = &c->nitsche[k];
         *s = (support) { &g->rows[PG_FACETS], q->point, (size_t) q->component,
                          galerkin_nitsche_stiffness (g, q) };
         return 1;
     }
-    k -= g->nnitsche;
-    if (k >= g->npenalty) return 0;
-    const constraint *q = &g->penalty[k];
-    *s = (support) { &g->rows[PG_NODES], (size_t) g->penalty_node[q->point], (size_t) q->component,
+    k -= c->nnitsche;
+    if (k >= c->npenalty) return 0;
+    const constraint *q = &c->penalty[k];
+    *s = (support) { &g->rows[PG_NODES], (size_t) c->penalty_node[q->point], (size_t) q->component,
                      elements_stiff (g, q) ? 0 : galerkin_penalty_stiffness (g, q) };
     return 1;
 }
@@ -289,8 +290,9 @@ static pg_status find_fixed (sums *b)
     const galerkin *g = b->g;
     size_t dim = (size_t) g->dim;
     PG_ALLOC (b->fixed, g->n * dim);
-    for (size_t k = 0; k < dim && g->has_T; k++)
-        for (size_t s = 0; s < g->side[k].n; s++) b->fixed[(size_t) g->side[k].slave[s] * dim + k] = 1;
+    for (size_t k = 0; k < dim && g->supports.has_T; k++)
+        for (size_t s = 0; s
+             < g->supports.side[k].n; s++) b->fixed[(size_t) g->supports.side[k].slave[s] * dim + k] = 1;
     for (size_t c = 0; c < b->out->W.ncol; c++) b->fixed[b->out->holds[c]] = 1;
 done:
     return status;

@@ -35,7 +35,8 @@ void galerkin_follow (galerkin *g)
 /* Has the run the material of the bare body everywhere, and no other part of K in the bulk? */
 static int same_stiffness (const galerkin *g, const pg_problem *run)
 {
-    return g->K && !g->all_stale && run->nmaterial == 1 && run->nlaw == 1 && !g->dilatation;
+    return g->stiffness.K && !g->stiffness.all_stale && run->nmaterial == 1 && run->nlaw == 1
+           && !g->dilatation;
 }
 
 /* Boundary facets of the bare problem are others than those of the run: only nodes and points are kept,
@@ -53,7 +54,8 @@ pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
     for (int set = PG_NODES; set <= PG_POINTS; set++) move_values (&kept->rows[set], &g->rows[set]);
     if (g->problem->consistency) move_values (&kept->sums, &g->sums), kept->sums.grade = NULL;
     galerkin_follow (g);
-    if (same_stiffness (g, problem)) kept->K = g->K, g->K = NULL, pg_assembly_settle (kept->K);
+    if (same_stiffness (g, problem)) kept->K = g->stiffness.K, g->stiffness.K = NULL,
+        pg_assembly_settle (kept->K);
     problem->intact = kept;
 done:
     return status;

@@ -23,7 +23,7 @@ PG_WIDE static void strain_points_solid (const measuring *m, size_t first, size_
     galerkin *g = m->g;
     for (size_t i = first; i < last; i++) {
         size_t p = m->list ? m->list[i] : i;
-        strain_solid (m->rows, p, m->x, g->u[m->set] + 3 * p, g->strain[m->set] + 6 * p);
+        strain_solid (m->rows, p, m->x, g->measured.u[m->set] + 3 * p, g->measured.strain[m->set] + 6 * p);
     }
 }
 
@@ -36,7 +36,7 @@ static void strain_points (const measuring *m, size_t first, size_t last)
     if (dim == 3) strain_points_solid (m, first, last);
     for (size_t i = first; i < last && dim < 3; i++) {
         size_t p = m->list ? m->list[i] : i;
-        double *e = g->strain[m->set] + p * nv, *u = g->u[m->set] + p * dim;
+        double *e = g->measured.strain[m->set] + p * nv, *u = g->measured.u[m->set] + p * dim;
         if (dim == 2) strain_flat (2, m->rows, p, m->x, u, e);
         else strain_flat (1, m->rows, p, m->x, u, e);
     }
@@ -50,22 +50,22 @@ static void stress_points (const measuring *m, size_t first, size_t last)
     size_t nv = (size_t) g->nv, at = m->set;
     for (size_t i = first, end; i < last; i = end) {
         size_t p = m->list ? m->list[i] : i;
-        double *e = g->strain[at] + p * nv;
+        double *e = g->measured.strain[at] + p * nv;
         end = i + 1;
-        if (g->eigen[at]) {
+        if (g->eigen.strain[at]) {
             galerkin_eigen_stress (g, m->set, p, e);
             continue;
         }
         const pg_material *law = galerkin_plain (g, m->set, p);
         while (!m->list && end < last && galerkin_plain (g, m->set, end) == law) end++;
-        law->type->stress (law, end - i, e, g->stress[at] + p * nv, g->zz[at] + p);
+        law->type->stress (law, end - i, e, g->measured.stress[at] + p * nv, g->measured.zz[at] + p);
     }
 }
 
 /* What is derived of the stress of a block of points is to be derived anew. */
 static void forget_bounds (galerkin *g, int set, size_t block)
 {
-    if (g->bounded[set]) g->bounded[set][block] = 0;
+    if (g->bounds.bounded[set]) g->bounds.bounded[set][block] = 0;
 }
 
 static size_t blocks_of (const galerkin *g, int set)
@@ -142,8 +142,9 @@ static void strain_slices (void *context, size_t first, size_t last, int thread)
             const galerkin_run *run = &s->runs[k].run[i];
             if (!run->same) continue;
             strain_range (m, at, run->point);
-            galerkin_run_strain (g, run, (const double *const *) s->component, m->active, g->u[m->set],
-                                 g->strain[m->set]);
+            galerkin_run_strain (g, run, (const double *const *) s->component, m->active,
+                                 g->measured.u[m->set],
+                                 g->measured.strain[m->set]);
             at = run->point + run->points * run->count;
         }
         strain_range (m, at, s->first[k + 1]);
@@ -154,8 +155,9 @@ static void strain_slices (void *context, size_t first, size_t last, int thread)
  * measured at another displacement meanwhile. NULL: all. */
 static const unsigned char *to_measure (galerkin *g, int set, const double *d)
 {
-    unsigned char *active = g->fresh[set] ? galerkin_active (g, set, d, g->seen[set]) : NULL;
-    for (size_t b = 0; active && b < blocks_of (g, set); b++) active[b] |= g->disturbed[set][b];
+    unsigned char *active = g->measured.fresh[set] ? galerkin_active (g, set, d, g->measured.seen[set])
+                            : NULL;
+    for (size_t b = 0; active && b < blocks_of (g, set); b++) active[b] |= g->measured.disturbed[set][b];
     return active;
 }
 
@@ -164,25 +166,25 @@ static const unsigned char *to_measure (galerkin *g, int set, const double *d)
 void galerkin_measure (galerkin *g, int set, const double *d)
 {
     size_t bytes = g->n * (size_t) g->dim * sizeof *d, blocks = blocks_of (g, set);
-    int whole = g->fresh[set] && !memchr (g->disturbed[set], 1, blocks);
-    if (whole && memcmp (g->seen[set], d, bytes) == 0) return;
+    int whole = g->measured.fresh[set] && !memchr (g->measured.disturbed[set], 1, blocks);
+    if (whole && memcmp (g->measured.seen[set], d, bytes) == 0) return;
     const unsigned char *active = to_measure (g, set, d);
-    memcpy (g->seen[set], d, bytes);
+    memcpy (g->measured.seen[set], d, bytes);
     measuring m = { g, set, rows_of (g, set), galerkin_widened (g, d), NULL, active };
     if (set == g->bulk && knows_runs (g->slices)) {
         galerkin_split (g, d);
         pg_parallel_heavy (g->threads, SLICES, strain_slices, &m);
         pg_parallel (g->threads, blocks, stress_blocks, &m);
     } else pg_parallel (g->threads, blocks, measure_blocks, &m);
-    memset (g->disturbed[set], 0, blocks);
+    memset (g->measured.disturbed[set], 0, blocks);
     if (g->dilatation) galerkin_dilatation_measure (g, set, d);
-    g->fresh[set] = 1;
+    g->measured.fresh[set] = 1;
 }
 
 /* Some points anew at the displacement measured last, after their shape functions have changed. */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
 {
-    measuring m = { g, set, rows_of (g, set), galerkin_widened (g, g->seen[set]), list, NULL };
+    measuring m = { g, set, rows_of (g, set), galerkin_widened (g, g->measured.seen[set]), list, NULL };
     strain_points (&m, 0, count), stress_points (&m, 0, count);
     for (size_t k = 0; k < count; k++) forget_bounds (g, set, list[k] / GALERKIN_BLOCK);
 }
@@ -190,7 +192,7 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
 /* What was measured at these points belongs to another displacement than what was at all others. */
 static void disturb (galerkin *g, int set, size_t count, const size_t *list)
 {
-    for (size_t k = 0; k < count; k++) g->disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
+    for (size_t k = 0; k < count; k++) g->measured.disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
 }
 
 /* Some points at a displacement that is known at some nodes only, all that these points see. */

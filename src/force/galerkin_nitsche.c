@@ -31,11 +31,12 @@ static int free_by (const pg_problem *p, const pg_load *load, int k)
  * first. */
 static pg_status find_nitsche (galerkin *g)
 {
+    galerkin_supports *c = &g->supports;
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t cap = 0;
-    PG_ALLOC (g->nitsche_start, r->n + 1);
+    PG_ALLOC (c->nitsche_start, r->n + 1);
     for (size_t q = 0; q < r->n; q++) {
         unsigned taken = 0;
         for (size_t l = 0; l < p->nload; l++) {
@@ -45,12 +46,12 @@ static pg_status find_nitsche (galerkin *g)
                 continue;
             for (int k = 0; k < g->dim; k++) {
                 if (free_by (p, load, k) || (taken >> k & 1)) continue;
-                PG_GROW (g->nitsche, cap, g->nnitsche + 1);
-                g->nitsche[g->nnitsche++] = (constraint) { q, (int) l, k };
+                PG_GROW (c->nitsche, cap, c->nnitsche + 1);
+                c->nitsche[c->nnitsche++] = (constraint) { q, (int) l, k };
                 taken |= 1u << k;
             }
         }
-        g->nitsche_start[q + 1] = g->nnitsche;
+        c->nitsche_start[q + 1] = c->nnitsche;
     }
 done:
     return status;
@@ -61,6 +62,7 @@ done:
  * that two loads prescribe belongs to the first. */
 static pg_status find_penalties (galerkin *g)
 {
+    galerkin_supports *c = &g->supports;
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     const pg_family *f = &g->rows[PG_NODES].family;
@@ -76,22 +78,22 @@ static pg_status find_penalties (galerkin *g)
                 continue;
             for (int k = 0; k < g->dim; k++) {
                 if (spring ? !load->value[k] : free_by (p, load, k) || (taken >> k & 1)) continue;
-                PG_GROW (g->penalty, cap, g->npenalty + 1);
-                g->penalty[g->npenalty++] = (constraint) { g->npenalty_node, (int) l, k };
+                PG_GROW (c->penalty, cap, c->npenalty + 1);
+                c->penalty[c->npenalty++] = (constraint) { c->npenalty_node, (int) l, k };
                 if (spring) any = 1;
                 else taken |= 1u << k;
             }
         }
         if (!taken && !any) continue;
-        PG_GROW (g->penalty_node, cap_node, g->npenalty_node + 1);
-        PG_GROW (g->penalty_family.start, cap_start, g->npenalty_node + 2);
-        PG_GROW (g->penalty_start, cap_first, g->npenalty_node + 2);
-        PG_GROW (g->penalty_family.node, cap_entry, nnz + f->start[i + 1] - f->start[i]);
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) g->penalty_family.node[nnz++] = f->node[e];
-        g->penalty_node[g->npenalty_node++] = (int) i;
-        g->penalty_family.start[g->npenalty_node] = nnz;
-        g->penalty_start[g->npenalty_node] = g->npenalty;
-        g->penalty_family.n = g->npenalty_node;
+        PG_GROW (c->penalty_node, cap_node, c->npenalty_node + 1);
+        PG_GROW (c->penalty_family.start, cap_start, c->npenalty_node + 2);
+        PG_GROW (c->penalty_start, cap_first, c->npenalty_node + 2);
+        PG_GROW (c->penalty_family.node, cap_entry, nnz + f->start[i + 1] - f->start[i]);
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) c->penalty_family.node[nnz++] = f->node[e];
+        c->penalty_node[c->npenalty_node++] = (int) i;
+        c->penalty_family.start[c->npenalty_node] = nnz;
+        c->penalty_start[c->npenalty_node] = c->npenalty;
+        c->penalty_family.n = c->npenalty_node;
     }
 done:
     return status;
@@ -107,21 +109,23 @@ pg_status galerkin_boundary_create (galerkin *g)
 /* Frees the constraints on facets and nodes, also where they were made in part only. */
 void galerkin_boundary_free (galerkin *g)
 {
-    pg_free (g->nitsche), pg_free (g->nitsche_start), pg_free (g->penalty), pg_free (g->penalty_node),
-        pg_free (g->penalty_start);
-    pg_family_clear (&g->penalty_family);
+    galerkin_supports *c = &g->supports;
+    pg_free (c->nitsche), pg_free (c->nitsche_start), pg_free (c->penalty), pg_free (c->penalty_node),
+        pg_free (c->penalty_start);
+    pg_family_clear (&c->penalty_family);
 }
 
 /* Nodes under a penalty are ascending. */
 long galerkin_penalty_of (const galerkin *g, size_t node)
 {
-    size_t lo = 0, hi = g->npenalty_node;
+    const galerkin_supports *c = &g->supports;
+    size_t lo = 0, hi = c->npenalty_node;
     while (lo < hi) {
         size_t mid = (lo + hi) / 2;
-        if ((size_t) g->penalty_node[mid] < node) lo = mid + 1;
+        if ((size_t) c->penalty_node[mid] < node) lo = mid + 1;
         else hi = mid;
     }
-    return lo < g->npenalty_node && (size_t) g->penalty_node[lo] == node ? (long) lo : -1;
+    return lo < c->npenalty_node && (size_t) c->penalty_node[lo] == node ? (long) lo : -1;
 }
 
 /* Does the load act on all points of the body? */
@@ -135,9 +139,10 @@ static int is_everywhere (const galerkin *g, const pg_load *load)
  * functions there? */
 static int loaded (const galerkin *g, int set, size_t point)
 {
+    const galerkin_supports *c = &g->supports;
     const pg_problem *p = g->problem;
-    if (set == PG_FACETS && g->nnitsche && g->nitsche_start[point + 1] > g->nitsche_start[point]) return 1;
-    if (set == PG_NODES && g->npenalty && galerkin_penalty_of (g, point) >= 0) return 1;
+    if (set == PG_FACETS && c->nnitsche && c->nitsche_start[point + 1] > c->nitsche_start[point]) return 1;
+    if (set == PG_NODES && c->npenalty && galerkin_penalty_of (g, point) >= 0) return 1;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         int everywhere = is_everywhere (g, load);
@@ -224,8 +229,8 @@ static void facet_terms (const galerkin *g, size_t p, size_t a, size_t m, size_t
     size_t dim = (size_t) g->dim, first = r->family.start[p];
     const double *N = r->N + first, *dN = r->dN + first * dim;
     double w = r->weight[p], press = w * beta (g, p) * N[a], QD[6], wt[3];
-    for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
-        size_t k = (size_t) g->nitsche[i].component;
+    for (size_t i = g->supports.nitsche_start[p]; i < g->supports.nitsche_start[p + 1]; i++) {
+        size_t k = (size_t) g->supports.nitsche[i].component;
         traction_of_strain (g, p, (int) k, QD);
         galerkin_B_transpose (g->dim, dN + a * dim, QD, wt);
         for (size_t c = 0; c < dim; c++) wt[c] *= w;
@@ -253,7 +258,7 @@ void galerkin_facet_rows (void *context, size_t p, size_t a, size_t m, double *o
 static double penalty (const galerkin *g, const constraint *q)
 {
     const pg_problem *p = g->problem;
-    size_t node = (size_t) g->penalty_node[q->point];
+    size_t node = (size_t) g->supports.penalty_node[q->point];
     double h = pg_problem_spacing (p, PG_NODES, node);
     const pg_load *load = &p->load[q->load];
     if (load->kind == PG_SPRING) {
@@ -279,13 +284,14 @@ void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, doubl
 {
     galerkin *g = context;
     const pg_rows *r = &g->rows[PG_NODES];
-    size_t dim = (size_t) g->dim, node = (size_t) g->penalty_node[p],
+    size_t dim = (size_t) g->dim, node = (size_t) g->supports.penalty_node[p],
            first = r->family.start[node] + pg_rows_offset (r, node);
-    for (size_t i = g->penalty_start[p]; i < g->penalty_start[p + 1]; i++) {
-        size_t k = (size_t) g->penalty[i].component;
+    for (size_t i = g->supports.penalty_start[p]; i < g->supports.penalty_start[p + 1]; i++) {
+        size_t k = (size_t) g->supports.penalty[i].component;
         for (size_t b = 0; b < m; b++)
             out[b * dim * dim + k * dim + k] += penalty (g,
-                                                         &g->penalty[i]) * r->N[first + a] * r->N[first + b];
+                                                         &g->supports.penalty[i]) 
+                              * r->N[first + a] * r->N[first + b];
     }
 }
 
@@ -301,7 +307,7 @@ typedef void (*visitor) (void *context, int set, size_t point, int load, int k, 
 static double nitsche_traction (const galerkin *g, const constraint *q, double gap)
 {
     double Q[6], t = 0;
-    const double *s = g->stress[PG_FACETS] + q->point * (size_t) g->nv;
+    const double *s = g->measured.stress[PG_FACETS] + q->point * (size_t) g->nv;
     traction_row (g->dim, q->component, normal (g, q->point), Q);
     for (int v = 0; v < g->nv; v++) t += Q[v] * s[v];
     return t - beta (g, q->point) * gap;
@@ -311,21 +317,22 @@ static double nitsche_traction (const galerkin *g, const constraint *q, double g
  * there, m: together they are the work of the supports. */
 static void visit_supports (galerkin *g, double t, visitor visit, void *context)
 {
+    galerkin_supports *c = &g->supports;
     size_t dim = (size_t) g->dim;
     galerkin_dilatation_gaps (g, t);
-    for (size_t i = 0; i < g->nnitsche; i++) {
-        const constraint *q = &g->nitsche[i];
-        double u = g->u[PG_FACETS][q->point * dim + (size_t) q->component];
+    for (size_t i = 0; i < c->nnitsche; i++) {
+        const constraint *q = &c->nitsche[i];
+        double u = g->measured.u[PG_FACETS][q->point * dim + (size_t) q->component];
         double goal = galerkin_prescribed (g, q, PG_FACETS, t);
         visit (context, PG_FACETS, q->point, q->load, q->component,
                g->rows[PG_FACETS].weight[q->point]
                    * (nitsche_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)),
                goal);
     }
-    for (size_t i = 0; i < g->npenalty; i++) {
-        const constraint *q = &g->penalty[i];
-        size_t node = (size_t) g->penalty_node[q->point];
-        double u = g->u[PG_NODES][node * dim + (size_t) q->component];
+    for (size_t i = 0; i < c->npenalty; i++) {
+        const constraint *q = &c->penalty[i];
+        size_t node = (size_t) c->penalty_node[q->point];
+        double u = g->measured.u[PG_NODES][node * dim + (size_t) q->component];
         double goal = galerkin_prescribed (g, q, PG_NODES, t);
         visit (context, PG_NODES, node, q->load, q->component, -penalty (g, q) * (u - goal), goal);
     }
@@ -344,7 +351,7 @@ static void visit_facet_load (const galerkin *g, double t, int l, visitor visit,
             int pressure = load->kind == PG_PRESSURE;
             double f = pg_load_value (load, pressure ? 0 : (int) k, g->dim, r->x + q * dim, t);
             visit (context, PG_FACETS, q, l, (int) k, r->weight[q] * (pressure ? -f * normal (g, q)[k] : f),
-                   g->u[PG_FACETS][q * dim + k]);
+                   g->measured.u[PG_FACETS][q * dim + k]);
         }
     }
 }
@@ -368,7 +375,7 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
         const double *x = pg_load_site (load, r->x + q * dim);
         for (size_t k = 0; k < dim; k++)
             visit (context, set, q, l, (int) k, share * pg_load_value (load, (int) k, g->dim, x, t),
-                   g->u[set][q * dim + k]);
+                   g->measured.u[set][q * dim + k]);
     }
 }
 
@@ -409,7 +416,7 @@ static void spread (void *context, int set, size_t point, int load, int k, doubl
 static inline void apply_point (int dim, galerkin *g, size_t first, size_t last, const double *x, double *y)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
-    size_t p = g->nitsche[first].point, d = (size_t) dim, begin = r->family.start[p],
+    size_t p = g->supports.nitsche[first].point, d = (size_t) dim, begin = r->family.start[p],
            end = r->family.start[p + 1];
     double u[3] = { 0 }, H[9] = { 0 }, F[3] = { 0 }, S[6] = { 0 }, e[6] = { 0 }, QD[6], w = r->weight[p];
     for (size_t b = begin; b < end; b++) {
@@ -422,7 +429,7 @@ static inline void apply_point (int dim, galerkin *g, size_t first, size_t last,
     for (int c = 0; c < dim; c++)
         for (int a = 0; a < dim; a++) e[pg_voigt_at (dim, c, a)] += H[c * dim + a];
     for (size_t i = first; i < last; i++) {
-        int k = g->nitsche[i].component;
+        int k = g->supports.nitsche[i].component;
         double t = 0;
         traction_of_strain (g, p, k, QD);
         for (int v = 0; v < g->nv; v++) t += QD[v] * e[v], S[v] -= w * u[k] * QD[v];
@@ -445,16 +452,17 @@ static inline void apply_point (int dim, galerkin *g, size_t first, size_t last,
  * displacement u and traction t are measured for x alone. */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
 {
+    galerkin_supports *c = &g->supports;
     size_t dim = (size_t) g->dim;
-    for (size_t i = 0, end = 0; i < g->nnitsche; i = end) {
-        while (end < g->nnitsche && g->nitsche[end].point == g->nitsche[i].point) end++;
+    for (size_t i = 0, end = 0; i < c->nnitsche; i = end) {
+        while (end < c->nnitsche && c->nitsche[end].point == c->nitsche[i].point) end++;
         if (dim == 3) apply_point (3, g, i, end, x, y);
         else if (dim == 2) apply_point (2, g, i, end, x, y);
         else apply_point (1, g, i, end, x, y);
     }
-    for (size_t i = 0; i < g->npenalty; i++) {
-        const constraint *q = &g->penalty[i];
-        size_t node = (size_t) g->penalty_node[q->point];
+    for (size_t i = 0; i < c->npenalty; i++) {
+        const constraint *q = &c->penalty[i];
+        size_t node = (size_t) c->penalty_node[q->point];
         const pg_rows *n = &g->rows[PG_NODES];
         const double *N = n->N + pg_rows_offset (n, node);
         double u = 0;
@@ -471,10 +479,11 @@ static void add_adjoint (galerkin *g, double t, double *f)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
-    for (size_t i = 0; i < g->nnitsche; i++) {
-        const constraint *q = &g->nitsche[i];
+    for (size_t i = 0; i < g->supports.nnitsche; i++) {
+        const constraint *q = &g->supports.nitsche[i];
         double QD[6], part[3], goal = galerkin_prescribed (g, q, PG_FACETS, t);
-        double gap = r->weight[q->point] * (g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal);
+        double gap = r->weight[q->point] * (g->measured.u[PG_FACETS][q->point * dim + (size_t) q->component]
+                                            - goal);
         traction_of_strain (g, q->point, q->component, QD);
         for (size_t e = r->family.start[q->point]; e < r->family.start[q->point + 1]; e++) {
             galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
@@ -515,24 +524,25 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
  * springs. With it the work of the supports equals the stored energy exactly as long as nothing breaks. */
 double galerkin_boundary_energy (galerkin *g, double t)
 {
+    galerkin_supports *c = &g->supports;
     size_t dim = (size_t) g->dim;
     double sum = 0;
     galerkin_dilatation_gaps (g, t);
-    for (size_t i = 0; i < g->nnitsche; i++) {
-        const constraint *q = &g->nitsche[i];
+    for (size_t i = 0; i < c->nnitsche; i++) {
+        const constraint *q = &c->nitsche[i];
         if (!pg_problem_owns (g->problem, PG_FACETS, q->point)) continue;
         double goal = galerkin_prescribed (g, q, PG_FACETS, t);
-        double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
+        double gap = g->measured.u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
         sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5
                * (nitsche_traction (g, q, gap) + nitsche_traction (g, q,
                                                                    0) + galerkin_dilatation_traction (g, q));
     }
-    for (size_t i = 0; i < g->npenalty; i++) {
-        const constraint *q = &g->penalty[i];
-        size_t node = (size_t) g->penalty_node[q->point];
+    for (size_t i = 0; i < c->npenalty; i++) {
+        const constraint *q = &c->penalty[i];
+        size_t node = (size_t) c->penalty_node[q->point];
         if (!pg_problem_owns (g->problem, PG_NODES, node)) continue;
         double goal = galerkin_prescribed (g, q, PG_NODES, t);
-        double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
+        double gap = g->measured.u[PG_NODES][node * dim + (size_t) q->component] - goal;
         sum += 0.5 * penalty (g, q) * gap * gap;
     }
     return sum;

@@ -11,7 +11,7 @@ void galerkin_apply (void *context, const double *x, double *y)
     galerkin *g = context;
     memset (y, 0, g->n * (size_t) g->dim * sizeof *y);
     galerkin_bulk_apply (g, x, y);
-    if (g->nnitsche || g->npenalty) galerkin_boundary_apply (g, x, y);
+    if (g->supports.nnitsche || g->supports.npenalty) galerkin_boundary_apply (g, x, y);
 }
 
 /* diag K_aa += w B_a' D B_a of the bulk where D couples no shear with anything else: normal and shear
@@ -69,15 +69,16 @@ static size_t widest (const pg_family *f)
  * which iterations use K. */
 pg_status galerkin_operator_create (galerkin *g)
 {
+    galerkin_stiffness *k = &g->stiffness;
     pg_status status = PG_OK;
     size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->sums.family),
-           penalty = widest (&g->penalty_family);
+        penalty = widest (&g->supports.penalty_family);
     most = most > bulk ? most : bulk, most = most > penalty ? most : penalty;
-    PG_ALLOC (g->wide, most * (size_t) (g->dim * g->dim));
-    PG_ALLOC (g->stale, g->n);
-    PG_ALLOC (g->diagonal, g->n * (size_t) g->dim);
-    g->all_stale = 1;
-    g->op = (pg_operator) { g->n * (size_t) g->dim, g, galerkin_apply, galerkin_diagonal };
+    PG_ALLOC (k->wide, most * (size_t) (g->dim * g->dim));
+    PG_ALLOC (k->stale, g->n);
+    PG_ALLOC (k->diagonal, g->n * (size_t) g->dim);
+    k->all_stale = 1;
+    k->op = (pg_operator) { g->n * (size_t) g->dim, g, galerkin_apply, galerkin_diagonal };
 done:
     return status;
 }
@@ -95,18 +96,22 @@ void galerkin_diagonal (void *context, double *d)
 {
     galerkin *g = context;
     size_t ndof = g->n * (size_t) g->dim;
-    if (g->diagonal_of != g->revision || g->revision == 0) {
-        memset (g->diagonal, 0, ndof * sizeof *g->diagonal);
-        if (g->dilatation) galerkin_dilatation_diagonal (g, g->diagonal);
-        if (!(g->options->silling > 0) && all_isotropic (g->problem)) bulk_diagonal (g, g->diagonal);
-        else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
-        if (g->nnitsche)
-            add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
-        if (g->npenalty) add_diagonal_blocks (g, &g->penalty_family, galerkin_penalty_blocks, g->wide,
-                                              g->diagonal);
-        g->diagonal_of = g->revision;
+    if (g->stiffness.diagonal_of != g->stiffness.revision || g->stiffness.revision == 0) {
+        memset (g->stiffness.diagonal, 0, ndof * sizeof *g->stiffness.diagonal);
+        if (g->dilatation) galerkin_dilatation_diagonal (g, g->stiffness.diagonal);
+        if (!(g->options->silling > 0) && all_isotropic (g->problem))
+            bulk_diagonal (g, g->stiffness.diagonal);
+        else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->stiffness.wide,
+                                  g->stiffness.diagonal);
+        if (g->supports.nnitsche)
+            add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->stiffness.wide,
+                                 g->stiffness.diagonal);
+        if (g->supports.npenalty) add_diagonal_blocks (g, &g->supports.penalty_family,
+                                                       galerkin_penalty_blocks, g->stiffness.wide,
+                                              g->stiffness.diagonal);
+        g->stiffness.diagonal_of = g->stiffness.revision;
     }
-    memcpy (d, g->diagonal, ndof * sizeof *d);
+    memcpy (d, g->stiffness.diagonal, ndof * sizeof *d);
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
@@ -115,21 +120,22 @@ void galerkin_diagonal (void *context, double *d)
 static void mark_family (galerkin *g, int set, size_t p)
 {
     const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
-    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
+    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stiffness.stale[f->node[e]] = 1;
 }
 
 /* count: how many points of each set were touched (g->list). Facets and nodes matter only where something
  * is prescribed there. A new revision tells preconditioners and factors that K is another one. */
 void galerkin_mark_stale (galerkin *g, const size_t *count)
 {
-    size_t marked = count[g->bulk] + (g->nnitsche ? count[PG_FACETS] : 0) + (g->npenalty ? count[PG_NODES]
+    galerkin_supports *c = &g->supports;
+    size_t marked = count[g->bulk] + (c->nnitsche ? count[PG_FACETS] : 0) + (c->npenalty ? count[PG_NODES]
             : 0);
     for (size_t k = 0; k < count[g->bulk]; k++) mark_family (g, g->bulk, g->list[g->bulk][k]);
-    for (size_t k = 0; g->nnitsche && k < count[PG_FACETS]; k++)
+    for (size_t k = 0; c->nnitsche && k < count[PG_FACETS]; k++)
         mark_family (g, PG_FACETS, g->list[PG_FACETS][k]);
-    for (size_t k = 0; g->npenalty && k < count[PG_NODES]; k++) mark_family (g, PG_NODES,
+    for (size_t k = 0; c->npenalty && k < count[PG_NODES]; k++) mark_family (g, PG_NODES,
             g->list[PG_NODES][k]);
-    g->revision += marked > 0;
+    g->stiffness.revision += marked > 0;
 }
 
 /* Sources of blocks: bulk (cell by cell with consistent integration, whose derivatives join all points of
@@ -146,7 +152,7 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
         source[n].finish = galerkin_finish_rows;
     else source[n].blocks = cells ? galerkin_cell_blocks : galerkin_bulk_blocks;
     n++;
-    if (g->nnitsche) {
+    if (g->supports.nnitsche) {
         source[n] = (pg_assembly_source) { .seen = &g->rows[PG_FACETS].family, .context = g };
         if (g->problem->plain) source[n++].blocks = galerkin_facet_blocks;
         else source[n++].rows = galerkin_facet_rows;
@@ -154,31 +160,33 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
     if (g->dilatation) source[n++] = (pg_assembly_source) { .seen = galerkin_dilatation_family (g),
                                                             .context = g,
                                                             .blocks = galerkin_dilatation_blocks };
-    if (g->npenalty) source[n++] = (pg_assembly_source) { .seen = &g->penalty_family, .context = g,
+    if (g->supports.npenalty) source[n++] =
+        (pg_assembly_source) { .seen = &g->supports.penalty_family, .context = g,
                                                           .blocks = galerkin_penalty_blocks };
-    g->all_stale = 1;
-    return pg_assembly_create (&g->K, g->n, g->dim, n, source);
+    g->stiffness.all_stale = 1;
+    return pg_assembly_create (&g->stiffness.K, g->n, g->dim, n, source);
 }
 
 /* Only rows that broken bonds have changed are gathered again. */
 static pg_status assemble (galerkin *g)
 {
+    galerkin_stiffness *k = &g->stiffness;
     pg_status status = PG_OK;
-    pg_assembly *known = g->K ? NULL : galerkin_take_stiffness (g);
+    pg_assembly *known = k->K ? NULL : galerkin_take_stiffness (g);
     int *node = NULL;
     size_t nnode = 0;
-    if (!g->K) PG_TRY (create_matrix (g, known));
-    g->took |= known != NULL;
-    if (g->all_stale) PG_TRY (pg_assembly_gather (g->K, g->n, NULL, g->threads));
+    if (!k->K) PG_TRY (create_matrix (g, known));
+    k->took |= known != NULL;
+    if (k->all_stale) PG_TRY (pg_assembly_gather (k->K, g->n, NULL, g->threads));
     else {
         PG_ALLOC (node, g->n);
-        for (size_t i = 0; i < g->n; i++) if (g->stale[i]) node[nnode++] = (int) i;
-        if (nnode) PG_TRY (pg_assembly_gather (g->K, nnode, node, g->threads));
+        for (size_t i = 0; i < g->n; i++) if (k->stale[i]) node[nnode++] = (int) i;
+        if (nnode) PG_TRY (pg_assembly_gather (k->K, nnode, node, g->threads));
     }
-    g->all_stale = 0;
-    memset (g->stale, 0, g->n);
+    k->all_stale = 0;
+    memset (k->stale, 0, g->n);
 done:
-    if (status != PG_OK && known) pg_assembly_free (&g->K);            /* which still looks at it */
+    if (status != PG_OK && known) pg_assembly_free (&k->K);            /* which still looks at it */
     pg_free (node);
     pg_assembly_free (&known);
     return status;
@@ -190,8 +198,8 @@ pg_status galerkin_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
     pg_status status = PG_OK;
     galerkin *g = self;
     if (want == PG_MATRIX_ASSEMBLED) PG_TRY (assemble (g));
-    if (want == PG_MATRIX_FREED) pg_assembly_free (&g->K);             /* with its lists */
-    *K = g->K ? pg_assembly_matrix (g->K) : &none;
+    if (want == PG_MATRIX_FREED) pg_assembly_free (&g->stiffness.K);             /* with its lists */
+    *K = g->stiffness.K ? pg_assembly_matrix (g->stiffness.K) : &none;
 done:
     return status;
 }
@@ -210,13 +218,14 @@ static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *ou
 /* Made once, of the bonds that live then: breaking moves no mass. */
 pg_status galerkin_consistent_mass (galerkin *g, const pg_sparse **M)
 {
+    galerkin_stiffness *k = &g->stiffness;
     pg_status status = PG_OK;
-    if (!g->M) {
+    if (!k->M) {
         pg_assembly_source source = { .seen = &g->sums.family, .context = g, .blocks = mass_blocks };
-        PG_TRY (pg_assembly_create (&g->M, g->n, 1, 1, &source));
-        PG_TRY (pg_assembly_gather (g->M, g->n, NULL, g->threads));
+        PG_TRY (pg_assembly_create (&k->M, g->n, 1, 1, &source));
+        PG_TRY (pg_assembly_gather (k->M, g->n, NULL, g->threads));
     }
-    *M = pg_assembly_matrix (g->M);
+    *M = pg_assembly_matrix (k->M);
 done:
     return status;
 }

@@ -28,7 +28,7 @@ const double *galerkin_place (const galerkin *g, int set, size_t point, double *
 double galerkin_prescribed (const galerkin *g, const constraint *q, int set, double t)
 {
     double at[3];
-    size_t point = set == PG_FACETS ? q->point : (size_t) g->penalty_node[q->point];
+    size_t point = set == PG_FACETS ? q->point : (size_t) g->supports.penalty_node[q->point];
     if (g->rows[set].grade[point] == PG_GRADE_DEAD) return 0;
     return pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                           galerkin_place (g, set, point, at), t);

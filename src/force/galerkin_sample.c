@@ -97,7 +97,8 @@ static int is_held (sampling *s, int j)
     int known = atomic_load_explicit (&s->held[j], memory_order_relaxed);
     if (known) return known == HELD;
     known = LOOSE;
-    n = pg_nearest_all (g->near_point, node_at (g, j), PG_NO_LENGTH * g->problem->cloud.h, point_hidden, s,
+    n = pg_nearest_all (g->places.near_point, node_at (g, j), PG_NO_LENGTH * g->problem->cloud.h,
+                        point_hidden, s,
                         point);
     for (size_t k = 0; k < n; k++) if (view (s, g->bulk, point[k], j) == ALIVE) known = HELD;
     atomic_store_explicit (&s->held[j], (unsigned char) known, memory_order_relaxed);
@@ -111,7 +112,7 @@ typedef struct { int set; size_t n, point[PG_NEAREST_MOST]; } nearest_points;
 static void find_nearest (sampling *s, const double *x, int set, nearest_points *out)
 {
     const galerkin *g = s->g;
-    const pg_nearest *grid = set == g->bulk ? g->near_point : g->near_node;
+    const pg_nearest *grid = set == g->bulk ? g->places.near_point : g->places.near_node;
     pg_refuse refuse = set == g->bulk ? point_hidden : node_hidden;
     double same = PG_NO_LENGTH * g->problem->cloud.h;
     if (!pg_state_cracks (g->problem, s->state)->n) refuse = NULL;
@@ -264,7 +265,8 @@ static double go_on_from (sampling *s, const double *x, size_t q, double *u, dou
     size_t dim = (size_t) g->dim;
     double from[3], G[9];
     size_t all[PG_NEAREST_MOST], n;
-    n = pg_nearest_all (g->near_point, x, PG_NO_LENGTH * g->problem->cloud.h, s->intact ? NULL : point_hidden,
+    n = pg_nearest_all (g->places.near_point, x, PG_NO_LENGTH * g->problem->cloud.h,
+                        s->intact ? NULL : point_hidden,
                         s, all);
     if (!n) n = 1, all[0] = q;
     memset (u, 0, 3 * sizeof *u), memset (H, 0, 9 * sizeof *H);
@@ -293,7 +295,7 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
         size_t q = s->uniform ? 0 : s->at[p];
         double *u = s->u + 3*p, H[9], more;
         if (s->uniform && s->rows.grade[p] > bulk->grade[q])
-            q = (size_t) pg_nearest_find (g->near_point, s->rows.x + p * dim, NULL, NULL);
+            q = (size_t) pg_nearest_find (g->places.near_point, s->rows.x + p * dim, NULL, NULL);
         int whole = s->rows.grade[p] <= bulk->grade[q];
         if (whole) gradient (s, &s->rows, p, u, H), more = pressure (s, &s->rows, p, q);
         else more = go_on_from (s, s->rows.x + p * dim, q, u, H);
@@ -309,7 +311,7 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
 static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
 {
     for (size_t p = 0; p < n; p++) {
-        long j = pg_nearest_find (g->near_node, x + p * (size_t) g->dim, NULL, NULL);
+        long j = pg_nearest_find (g->places.near_node, x + p * (size_t) g->dim, NULL, NULL);
         double away = 0;
         for (int k = 0; k < g->dim; k++) {
             double step = x[p * (size_t) g->dim + (size_t) k] - node_at (g, (int) j)[k];
@@ -329,7 +331,8 @@ static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
     a.refined = 0;                                     /* places that are alike have the same field */
     int about_nodes = p->approx.type->interpolates || !s->intact;
     if (about_nodes) find_nodes (s->g, n, x, own);
-    PG_TRY (pg_rows_place (&s->rows, s->g->search, &p->cloud, n, x, NULL, about_nodes ? own : NULL, NULL,
+    PG_TRY (pg_rows_place (&s->rows, s->g->places.search, &p->cloud, n, x, NULL, about_nodes ? own : NULL,
+                           NULL,
                            NULL, s->g->threads));
     bonds = s->rows.family.start[n];
     PG_ALLOC (s->rows.N, bonds);                       /* the influence is not asked for */
@@ -354,7 +357,7 @@ static pg_status sample_each (sampling *s, size_t n, const double *x, int *own, 
     PG_TRY (make_rows (s, n, x, own));
     pg_parallel (s->g->threads, n, evaluate, s);
     for (size_t i = 0; leaves && i < n; i++)
-        if (leaves[i] >= 0) galerkin_alike_keep (s->g->alike, leaves[i], &s->rows, i, x + i * dim);
+        if (leaves[i] >= 0) galerkin_alike_keep (s->g->places.alike, leaves[i], &s->rows, i, x + i * dim);
 done:
     pg_rows_clear (&s->rows);
     return status;
@@ -391,10 +394,10 @@ static void evaluate_alike (void *context, size_t first, size_t last, int thread
     const sampling *s = b->s;
     const galerkin *g = s->g;
     size_t held = SIZE_MAX;
-    double *value = b->value + (size_t) thread * galerkin_alike_scratch (g->alike), H[9];
+    double *value = b->value + (size_t) thread * galerkin_alike_scratch (g->places.alike), H[9];
     for (size_t p = first; p < last; p++) {
         if (b->which[p] < 0) continue;
-        galerkin_alike_values (g->alike, b->which[p], b->x + p * (size_t) g->dim, s->d, value, &held,
+        galerkin_alike_values (g->places.alike, b->which[p], b->x + p * (size_t) g->dim, s->d, value, &held,
                                s->u + 3*p, H);
         if (s->gradient) memcpy (s->gradient + 9*p, H, sizeof H);
         if (!s->stress) continue;
@@ -438,12 +441,14 @@ static pg_status sample_alike (sampling *s, size_t n, const double *x, int *own)
     int *which = NULL;
     PG_ALLOC (which, 2 * n);
     PG_ALLOC (rest, n);
-    PG_ALLOC (b.value, threads * galerkin_alike_scratch (g->alike));
-    PG_TRY (galerkin_alike_sort (g->alike, g->problem->cloud.volume, n, x, which, rest, which + n, &nrest));
+    PG_ALLOC (b.value, threads * galerkin_alike_scratch (g->places.alike));
+    PG_TRY (galerkin_alike_sort (g->places.alike, g->problem->cloud.volume, n, x, which, rest, which + n,
+                                 &nrest));
     PG_TRY (sample_rest (s, nrest, rest, which + n, x, own));
     nrest = 0;
     for (size_t p = 0; p < n; p++)
-        if (which[p] >= 0 && !galerkin_alike_good (g->alike, which[p])) rest[nrest++] = p, which[p] = -1;
+        if (which[p] >= 0 && !galerkin_alike_good (g->places.alike, which[p])) rest[nrest++] = p,
+            which[p] = -1;
     PG_TRY (sample_rest (s, nrest, rest, NULL, x, own));
     b.which = which;
     pg_parallel (g->threads, n, evaluate_alike, &b);
@@ -461,26 +466,28 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     sampling s = { .g = g, .state = state, .d = d, .time = state->time };
     int *own = NULL;
     look_over (&s);
-    if (!g->search) PG_TRY (pg_rows_search (&g->search, &g->problem->approx, &g->problem->cloud));
-    if (!g->near_point) PG_TRY (pg_nearest_create (&g->near_point, g->dim, bulk->n, bulk->x));
-    if (!g->near_node) PG_TRY (pg_nearest_create (&g->near_node, g->dim, g->n, g->problem->cloud.x));
+    if (!g->places.search)
+        PG_TRY (pg_rows_search (&g->places.search, &g->problem->approx, &g->problem->cloud));
+    if (!g->places.near_point) PG_TRY (pg_nearest_create (&g->places.near_point, g->dim, bulk->n, bulk->x));
+    if (!g->places.near_node)
+        PG_TRY (pg_nearest_create (&g->places.near_node, g->dim, g->n, g->problem->cloud.x));
     PG_ALLOC (s.at, n < CHUNK ? n : CHUNK);
     PG_ALLOC (own, n < CHUNK ? n : CHUNK);
     if (g->dilatation && stress) s.pressure = galerkin_dilatation_of_nodes (g, d);
     int alike = s.uniform && !s.pressure && n >= MANY && SHARE * n >= g->n;
-    if (alike && !g->alike) PG_TRY (galerkin_alike_create (&g->alike, g->problem));
+    if (alike && !g->places.alike) PG_TRY (galerkin_alike_create (&g->places.alike, g->problem));
     if (!s.intact && n <= CHUNK && galerkin_again_serves (g, n)) {
         s.u = u, s.stress = stress, s.gradient = gradient;
         PG_TRY (sample_again (&s, n, x, own));
         goto done;
     }
-    if (alike && g->alike) galerkin_alike_begin (g->alike, g->n * (size_t) g->dim, d);
+    if (alike && g->places.alike) galerkin_alike_begin (g->places.alike, g->n * (size_t) g->dim, d);
     for (size_t first = 0; first < n; first += CHUNK) {
         s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;
         s.gradient = gradient ? gradient + 9 * first : NULL;
         size_t some = n - first < CHUNK ? n - first : CHUNK;
         const double *at = x + first * (size_t) g->dim;
-        if (alike && g->alike) PG_TRY (sample_alike (&s, some, at, own));
+        if (alike && g->places.alike) PG_TRY (sample_alike (&s, some, at, own));
         else PG_TRY (sample_each (&s, some, at, own, NULL));
     }
 done:

@@ -171,7 +171,7 @@ pg_status galerkin_again_find (galerkin *g, const pg_state *state, size_t n, con
                                const pg_rows **rows, size_t **at)
 {
     pg_status status = PG_OK;
-    galerkin_again *a = g->again;
+    galerkin_again *a = g->places.again;
     *rows = NULL;
     for (size_t k = 0; a && k < a->n; k++) {
         batch *b = &a->kept[k];
@@ -220,21 +220,25 @@ pg_status galerkin_again_keep (galerkin *g, const pg_state *state, size_t n, con
     pg_status status = PG_OK;
     batch b = { .n = n, .low = { INFINITY, INFINITY }, .high = { -INFINITY, -INFINITY } };
     if (!asks_near (g, n, x, *at)) return PG_OK;
-    if (!g->again) PG_ALLOC (g->again, 1);
-    make_room (g->again);
+    if (!g->places.again) PG_ALLOC (g->places.again, 1);
+    make_room (g->places.again);
     PG_ALLOC (b.x, 2 * n);
     memcpy (b.x, x, 2 * n * sizeof *x);
     for (size_t i = 0; i < 2 * n; i++)
         b.low[i % 2] = fmin (b.low[i % 2], x[i]), b.high[i % 2] = fmax (b.high[i % 2], x[i]);
     PG_TRY (find_near (&b, g));
     PG_TRY (look_around (&b.around, &b, g, state));
-    b.rows = *rows, b.at = *at, b.used = ++g->again->clock;
+    b.rows = *rows, b.at = *at, b.used = ++g->places.again->clock;
     *rows = (pg_rows) { 0 }, *at = NULL;
-    g->again->kept[g->again->n++] = b;
+    g->places.again->kept[g->places.again->n++] = b;
     b = (batch) { 0 };
 done:
     clear_batch (&b);
     return status;
 }
 
-int galerkin_again_served (const galerkin *g) { return g->again && g->again->clock > (long) g->again->n; }
+int galerkin_again_served (const galerkin *g)
+{
+    return g->places.again
+           && g->places.again->clock > (long) g->places.again->n;
+}

@@ -26,7 +26,8 @@ static void free_one (galerkin_sight *s)
 
 void galerkin_sight_free (galerkin *g)
 {
-    for (int set = 0; set < PG_BOND_SETS; set++) free_one (g->sight[set]), g->sight[set] = NULL;
+    for (int set = 0; set < PG_BOND_SETS; set++) free_one (g->measured.sight[set]),
+        g->measured.sight[set] = NULL;
 }
 
 /* Visits the pairs of blocks that see each other, in the order of the blocks of points: counts them in
@@ -65,7 +66,7 @@ static pg_status create (galerkin *g, int set)
     visit_pairs (s, f, last, s->sees);
     for (size_t b = s->nodes; b > 0; b--) s->start[b] = s->start[b - 1];
     s->start[0] = 0;
-    g->sight[set] = s, s = NULL;
+    g->measured.sight[set] = s, s = NULL;
 done:
     pg_free (last);
     if (s) free_one (s);
@@ -78,7 +79,8 @@ pg_status galerkin_sight_ready (galerkin *g, int products)
     pg_status status = PG_OK;
     if (g->problem->plain || g->dilatation) return PG_OK;
     for (int set = 0; set < PG_BOND_SETS; set++)
-        if ((g->fresh[set] || (products && set == g->bulk)) && !g->sight[set]) PG_TRY (create (g, set));
+        if ((g->measured.fresh[set] || (products && set == g->bulk)) && !g->measured.sight[set])
+            PG_TRY (create (g, set));
 done:
     return status;
 }
@@ -99,7 +101,7 @@ static size_t mark_nodes (const galerkin *g, const double *x, const double *othe
 
 unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other)
 {
-    galerkin_sight *s = g->sight[set];
+    galerkin_sight *s = g->measured.sight[set];
     if (!s || !s->sees) return NULL;
     /* where much has changed all is looked at */
     if (2 * mark_nodes (g, x, other, s->node) > s->nodes) return NULL;

@@ -33,7 +33,8 @@ static void put_nodes (void *context, size_t first, size_t last, int thread)
     size_t dim = (size_t) g->dim;
     (void) thread;
     for (size_t i = first; i < last; i++)
-        put (dim, g->problem->cloud.x + i * dim, g->u[PG_NODES] + i * dim, g->place_now + PLACE * i);
+        put (dim, g->problem->cloud.x + i * dim, g->measured.u[PG_NODES] + i * dim,
+             g->bounds.place_now + PLACE * i);
 }
 
 #define INLINE static inline __attribute__ ((always_inline))
@@ -54,7 +55,7 @@ PG_WIDE static void measure (const looking *w, size_t first, size_t last)
     const galerkin *g = w->g;
     const pg_rows *r = &g->rows[w->set];
     const unsigned char *alive = w->state->alive + g->problem->first_bond[w->set],
-                        *judged = g->judged[w->set];
+                        *judged = g->bounds.judged[w->set];
     size_t dim = (size_t) g->dim;
     for (size_t b = first; b < last; b++) {
         size_t end = (b + 1) * GALERKIN_BLOCK < r->n ? (b + 1) * GALERKIN_BLOCK : r->n;
@@ -62,14 +63,14 @@ PG_WIDE static void measure (const looking *w, size_t first, size_t last)
         for (size_t p = b * GALERKIN_BLOCK; p < end; p++) {
             double own[PLACE] = { 0 };
             if (!pg_problem_owns (g->problem, w->set, p)) continue;
-            put (dim, r->x + p * dim, g->u[w->set] + p * dim, own);
+            put (dim, r->x + p * dim, g->measured.u[w->set] + p * dim, own);
             for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
                 if (!alive[k] || !judged[k]) continue;
                 double e = elongation (own, w->node + PLACE * (size_t) r->family.node[k], w->square);
                 most = e > most ? e : most;
             }
         }
-        g->longest[w->set][b] = most;
+        g->bounds.longest[w->set][b] = most;
     }
 }
 
@@ -86,19 +87,19 @@ static pg_status find_longest (galerkin *g, const pg_state *state, const double 
 {
     pg_status status = PG_OK;
     PG_TRY (galerkin_find_judged (g));
-    if (!g->place_now) PG_ALLOC (g->place_now, PLACE * g->n);
+    if (!g->bounds.place_now) PG_ALLOC (g->bounds.place_now, PLACE * g->n);
     for (int set = 0; set < PG_BOND_SETS; set++) {
         size_t blocks = (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
-        if (!g->longest[set]) PG_ALLOC (g->longest[set], blocks);
+        if (!g->bounds.longest[set]) PG_ALLOC (g->bounds.longest[set], blocks);
         if (blocks) galerkin_measure (g, set, d);
     }
     pg_parallel (g->threads, g->n, put_nodes, g);
     *most = NONE;
     for (int set = 0; set < PG_BOND_SETS; set++) {
         size_t blocks = (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
-        looking w = { g, state, set, square, g->place_now };
+        looking w = { g, state, set, square, g->bounds.place_now };
         pg_parallel_heavy (g->threads, blocks, measure_blocks, &w);
-        for (size_t b = 0; b < blocks; b++) *most = fmax (*most, g->longest[set][b]);
+        for (size_t b = 0; b < blocks; b++) *most = fmax (*most, g->bounds.longest[set][b]);
     }
 done:
     return status;
@@ -120,13 +121,13 @@ static pg_status search_point (search *s, size_t p)
     int set = b->judge.set;
     const pg_rows *r = &g->rows[set];
     const unsigned char *alive = b->judge.state->alive + g->problem->first_bond[set],
-                        *judged = g->judged[set];
+                        *judged = g->bounds.judged[set];
     size_t dim = (size_t) g->dim;
     double own[PLACE] = { 0 };
-    put (dim, r->x + p * dim, g->u[set] + p * dim, own);
+    put (dim, r->x + p * dim, g->measured.u[set] + p * dim, own);
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         if (!alive[k] || !judged[k]) continue;
-        double e = elongation (own, g->place_now + PLACE * (size_t) r->family.node[k], s->square);
+        double e = elongation (own, g->bounds.place_now + PLACE * (size_t) r->family.node[k], s->square);
         if (!(e >= s->least)) continue;
         b->bond[b->count] = k, b->point[b->count++] = p;
         if (b->count == BATCH) PG_TRY (galerkin_judge_batch (b));
@@ -143,7 +144,8 @@ static pg_status search_all (search *s)
     for (int set = 0; set < PG_BOND_SETS; set++) {
         s->batch.judge.set = set;
         for (size_t p = 0; p < g->rows[set].n; p++)
-            if (g->longest[set][p / GALERKIN_BLOCK] >= s->least && pg_problem_owns (g->problem, set, p))
+            if (g->bounds.longest[set][p / GALERKIN_BLOCK] >= s->least
+                && pg_problem_owns (g->problem, set, p))
                 PG_TRY (search_point (s, p));
         PG_TRY (galerkin_judge_batch (&s->batch));
     }

@@ -180,7 +180,7 @@ PG_WIDE static void sum_solid (const summing *m, size_t first, size_t last, doub
     const pg_rows *r = &g->sums;
     double e[6], own[6];
     for (size_t p = first; p < last; p++) {
-        const double *s = g->stress[g->bulk] + 6 * p;
+        const double *s = g->measured.stress[g->bulk] + 6 * p;
         if (m->x) {
             strain_solid (r, p, m->x, NULL, e);
             tangent (galerkin_plain (g, g->bulk, p)->D, e, own);
@@ -198,7 +198,7 @@ INLINE void sum_flat (int dim, const summing *m, size_t first, size_t last, doub
     size_t nv = dim == 2 ? 3 : 1;
     double e[3], own[3];
     for (size_t p = first; p < last; p++) {
-        const double *s = g->stress[g->bulk] + nv * p, *D = galerkin_plain (g, g->bulk, p)->D;
+        const double *s = g->measured.stress[g->bulk] + nv * p, *D = galerkin_plain (g, g->bulk, p)->D;
         if (m->x) {
             strain_flat (dim, r, p, m->x, NULL, e);
             for (size_t v = 0; v < nv; v++) {
@@ -236,7 +236,8 @@ static void sum_points (const summing *m, size_t k, size_t first, size_t last)
     if (m->active) return;
     const galerkin_slices *s = g->slices;
     if (g->kept)
-        galerkin_silling_sum (g, first, last, m->x ? NULL : g->stress[g->bulk], m->at, s->sum[k], s->low[k]);
+        galerkin_silling_sum (g, first, last, m->x ? NULL : g->measured.stress[g->bulk], m->at, s->sum[k],
+                              s->low[k]);
     else
         (g->dim == 3 ? sum_solid : g->dim == 2 ? sum_plane : sum_line) (m, first, last, s->sum[k],
                                                                          s->low[k]);
@@ -346,7 +347,7 @@ int galerkin_spared (const void *self, size_t k, char *what, char *why, double *
 {
     const galerkin *g = self;
     const galerkin_slices *s = g->slices;
-    if (g->place_now && k-- == 0) {
+    if (g->bounds.place_now && k-- == 0) {
         snprintf (what, 96, "utilisation of most bonds");
         snprintf (why, 160, "a bond breaks by its elongation: only where the longest of a block reaches the "
                             "limit they are judged");

@@ -53,17 +53,17 @@ static void judge_alone (const bounding *c, size_t first, size_t last)
 {
     const galerkin *g = c->g;
     const unsigned char *exempt = g->problem->exempt[c->set];
-    double out[GALERKIN_BLOCK], *alone = g->alone[c->set];
+    double out[GALERKIN_BLOCK], *alone = g->bounds.alone[c->set];
     for (size_t p = first; p < last; p++) alone[p] = exempt[p] ? NEVER : 0;
     if (c->all->n) {
         for (size_t p = first; p < last; p++)
-            if (!exempt[p]) alone[p] = at_most (c->all, g->s1[c->set][p], g->s3[c->set][p]);
+            if (!exempt[p]) alone[p] = at_most (c->all, g->measured.s1[c->set][p], g->measured.s3[c->set][p]);
         return;
     }
     for (size_t k = 0; k < g->problem->nlimit; k++) {
         const pg_criterion *law = &g->problem->limit[k];
-        pg_bond_measures m = { .n = last - first, .dim = g->dim, .s1 = g->s1[c->set] + first,
-                               .s3 = g->s3[c->set] + first };
+        pg_bond_measures m = { .n = last - first, .dim = g->dim, .s1 = g->measured.s1[c->set] + first,
+            .s3 = g->measured.s3[c->set] + first };
         law->type->utilisation (law, &m, out, NULL);
         for (size_t i = 0; i < m.n; i++)
             if (!exempt[first + i] && out[i] > alone[first + i]) alone[first + i] = out[i];
@@ -79,12 +79,13 @@ static void bound_blocks (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t b = first; b < last; b++) {
         size_t p = b * GALERKIN_BLOCK, end = p + GALERKIN_BLOCK < n ? p + GALERKIN_BLOCK : n;
-        if (g->bounded[c->set][b]) continue;
-        g->bounded[c->set][b] = 1;
-        memset (g->exact[c->set] + p, !c->loose, end - p);
+        if (g->bounds.bounded[c->set][b]) continue;
+        g->bounds.bounded[c->set][b] = 1;
+        memset (g->bounds.exact[c->set] + p, !c->loose, end - p);
         if (c->loose)
-            pg_principal_bounds (g->dim, end - p, g->stress[c->set] + p * (size_t) g->nv, g->zz[c->set] + p,
-                                 g->s1[c->set] + p, g->s3[c->set] + p);
+            pg_principal_bounds (g->dim, end - p, g->measured.stress[c->set] + p * (size_t) g->nv,
+                                 g->measured.zz[c->set] + p,
+                                 g->measured.s1[c->set] + p, g->measured.s3[c->set] + p);
         else for (size_t i = p; i < end; i++) galerkin_principal (g, c->set, i);
         judge_alone (c, p, end);
     }
@@ -107,14 +108,15 @@ static int all_grow (const galerkin *g)
 /* All points of all sets, by the stress at displacement d. */
 static pg_status find_bounds (galerkin *g, const double *d)
 {
+    galerkin_bounds *b = &g->bounds;
     pg_status status = PG_OK;
     int loose = g->dim == 3 && all_grow (g);
     envelope all = envelope_of (g->problem);
     for (int set = 0; set < PG_BOND_SETS; set++) {
         size_t n = g->rows[set].n, blocks = (n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
-        if (!g->alone[set]) PG_ALLOC (g->alone[set], n);
-        if (!g->exact[set]) PG_ALLOC (g->exact[set], n);
-        if (!g->bounded[set]) PG_ALLOC (g->bounded[set], blocks);
+        if (!b->alone[set]) PG_ALLOC (b->alone[set], n);
+        if (!b->exact[set]) PG_ALLOC (b->exact[set], n);
+        if (!b->bounded[set]) PG_ALLOC (b->bounded[set], blocks);
         if (n) galerkin_measure (g, set, d);
         bounding c = { g, set, loose, &all };
         pg_parallel (g->threads, blocks, bound_blocks, &c);
@@ -142,9 +144,9 @@ typedef struct {
 /* The principal stresses of a point themselves, where only bounds are known. */
 static void make_exact (galerkin *g, int set, size_t p)
 {
-    if (g->exact[set][p]) return;
+    if (g->bounds.exact[set][p]) return;
     galerkin_principal (g, set, p);
-    g->exact[set][p] = 1;
+    g->bounds.exact[set][p] = 1;
 }
 
 pg_status galerkin_judge_batch (galerkin_batch *b)
@@ -199,8 +201,9 @@ static pg_status search_point (search *s, size_t p)
     const pg_family *f = &g->rows[set].family;
     const unsigned char *alive = b->judge.state->alive + g->problem->first_bond[set];
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
-        double other = g->alone[PG_NODES][f->node[e]];
-        if (!alive[e] || !may (s, g->alone[set][p], other) || pg_problem_no_bond (g->problem, set, p, e))
+        double other = g->bounds.alone[PG_NODES][f->node[e]];
+        if (!alive[e] || !may (s, g->bounds.alone[set][p], other)
+            || pg_problem_no_bond (g->problem, set, p, e))
             continue;
         b->bond[b->count] = e, b->point[b->count++] = p;
         if (b->count == BATCH) PG_TRY (judge_collected (s));
@@ -215,7 +218,7 @@ static pg_status search_all (search *s)
     pg_status status = PG_OK;
     galerkin *g = s->batch.judge.g;
     for (s->batch.judge.set = 0; s->batch.judge.set < PG_BOND_SETS; s->batch.judge.set++) {
-        const double *alone = g->alone[s->batch.judge.set];
+        const double *alone = g->bounds.alone[s->batch.judge.set];
         for (size_t p = 0; p < g->rows[s->batch.judge.set].n; p++)
             if (may (s, alone[p], s->top_node) && pg_problem_owns (g->problem, s->batch.judge.set, p))
                 PG_TRY (search_point (s, p));
@@ -231,7 +234,7 @@ static pg_status search_first (search *s)
     pg_status status = PG_OK;
     galerkin *g = s->batch.judge.g;
     for (s->batch.judge.set = 0; s->batch.judge.set < PG_BOND_SETS; s->batch.judge.set++) {
-        const double *alone = g->alone[s->batch.judge.set];
+        const double *alone = g->bounds.alone[s->batch.judge.set];
         size_t n = g->rows[s->batch.judge.set].n, worst = n;
         for (size_t p = 0; p < n; p++)
             if (pg_problem_owns (g->problem, s->batch.judge.set, p)
@@ -261,7 +264,7 @@ pg_status galerkin_worst (galerkin *g, const pg_state *state, const double *d, d
         return pg_worst_bonds (g->problem, state, utilisation, from, top, over);
     }
     PG_TRY (find_bounds (g, d));
-    for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->alone[PG_NODES][i]);
+    for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->bounds.alone[PG_NODES][i]);
     PG_TRY (search_first (&s));
     s.least = s.batch.top = galerkin_largest (g, s.batch.top);
     PG_TRY (search_all (&s));

@@ -236,7 +236,7 @@ static void resist_facet (const body_parts *out, const pg_system *s, const pg_lo
     int seen[PARTS], n = 0;
     for (size_t e = r->family.start[q]; e < r->family.start[q + 1] && n < PARTS; e++) {
         int part = out->of[r->family.node[e]], known = 0;
-        if (s->alive && !s->alive[p->first_bond[PG_FACETS] + e]) continue;
+        if (s->direct.alive && !s->direct.alive[p->first_bond[PG_FACETS] + e]) continue;
         for (int k = 0; k < n; k++) known |= seen[k] == part;
         if (known) continue;
         seen[n++] = part;

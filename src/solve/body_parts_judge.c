@@ -46,7 +46,7 @@ static pg_status find_loads (pg_system *s, double t, double *force)
     if (s->force->loads) PG_TRY (s->force->loads (s->self, t, force));
     else PG_TRY (s->force->balance (s->self, t, zero, force, &reference));
     for (size_t i = 0; i < s->ndof; i++)
-        force[i] += (contact ? contact[i] : 0) + (s->excavated ? s->excavated[i] : 0);
+        force[i] += (contact ? contact[i] : 0) + (s->balance.excavated ? s->balance.excavated[i] : 0);
     system_clear_ghosts (s, force);
 done:
     pg_free (zero);
@@ -300,6 +300,7 @@ done:
 
 pg_status body_parts_begin (pg_system *s, double t)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     along_motions w = { 0 };
     PG_TRY (judge (&w, s, t));
@@ -314,8 +315,8 @@ pg_status body_parts_begin (pg_system *s, double t)
                             "a part of the body, %s, is free to move %s: its loads balance, and it keeps its "
                             "mean place and direction", place, how.text);
     }
-    for (size_t r = 0; r < w.parts.n && !s->floating; r++) if (w.parts.part[r].n) PG_ALLOC (s->floating, 1);
-    if (s->floating) *s->floating = w.parts, w.parts = (body_parts){ 0 };
+    for (size_t r = 0; r < w.parts.n && !b->floating; r++) if (w.parts.part[r].n) PG_ALLOC (b->floating, 1);
+    if (b->floating) *b->floating = w.parts, w.parts = (body_parts){ 0 };
 done:
     clear (&w);
     return status;
@@ -341,7 +342,7 @@ pg_status body_parts_centre (pg_system *s, double *d)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->problem;
-    const body_parts *parts = s->floating;
+    const body_parts *parts = s->balance.floating;
     size_t dim = (size_t) p->dim, components = (size_t) s->components;
     double *sum = NULL;
     if (!parts) return PG_OK;
@@ -446,7 +447,7 @@ static int say_row (words *out, const along_motions *w)
 static void say_reason (words *out, const pg_system *s)
 {
     const pg_load *penalty = stiffest_penalty (s);
-    int direct = s->linear->factors;
+    int direct = s->direct.linear->factors;
     say (out, "; supports hold every part of the body");
     if (penalty)
         say (out, "; the penalty of %s, %.3g E / spacing, makes K ill-conditioned: use essential: "

@@ -302,10 +302,10 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
     step->utilisation = 0;
     for (step->iterations = b->round;; b->round = ++step->iterations) {
         PG_TRY (show_caller (b, state, step));
-        s->begins = step->iterations == 0;
+        s->choice.begins = step->iterations == 0;
         double top;
         int rough = 0, judges = !b->growth && break_loop_judges (b);
-        if (judges && step->iterations > (s->mode != SYSTEM_DIAGONAL))
+        if (judges && step->iterations > (s->choice.mode != SYSTEM_DIAGONAL))
             PG_TRY (break_loop_rough (b, state, t, d, dyn, &top, &rough));
         if (!rough) PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */

@@ -15,52 +15,57 @@
 /* Is the residual that of d, and of forces that are changed by the rows of these points alone? */
 static int may_carry (const pg_system *s, const dynamics *dyn)
 {
-    return dyn && dyn->whole && s->known && s->mode == SYSTEM_DIAGONAL && s->force->spares.share_of
-           && !s->options->plain && !system_is_shared (s) && !s->contact && !s->excavated && !s->held;
+    return dyn && dyn->whole && s->balance.known && s->choice.mode == SYSTEM_DIAGONAL
+           && s->force->spares.share_of
+           && !s->options->plain && !system_is_shared (s) && !s->contact && !s->balance.excavated
+               && !s->balance.held;
 }
 
 pg_status system_break (pg_system *s, const pg_state *state, const pg_changes *changes, const double *d,
                         const dynamics *dyn)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    double *before = s->scratch, *now = s->best;
-    int can = may_carry (s, dyn), joined = can && dyn->join && dyn->join (dyn->context, d, s->full);
-    const double *x = joined ? s->full : d;
-    s->at_hand = 0;
+    double *before = b->scratch, *now = b->best;
+    int can = may_carry (s, dyn), joined = can && dyn->join && dyn->join (dyn->context, d, b->full);
+    const double *x = joined ? b->full : d;
+    b->at_hand = 0;
     if (can) PG_TRY (s->force->spares.share_of (s->self, x, changes, before, &can));
     PG_TRY (system_refresh (s, state, changes));
     if (!can) goto done;
     PG_TRY (s->force->spares.share_of (s->self, x, changes, now, &can));
-    for (size_t i = 0; i < s->ndof; i++) s->residual[i] += before[i] - now[i];
-    s->at_hand = 1;
+    for (size_t i = 0; i < s->ndof; i++) b->residual[i] += before[i] - now[i];
+    b->at_hand = 1;
 done:
-    s->known = 0;
+    b->known = 0;
     return status;
 }
 
 /* The residual at hand as system_residual would leave it. */
 double system_take_residual (pg_system *s)
 {
+    system_balance *b = &s->balance;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
-    else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
-    s->unbalanced = system_norm (s, s->reduced, s->nred);
-    s->unmeasured++;
-    return s->scale > 0 ? s->unbalanced / s->scale : 0;
+    if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
+    else memcpy (b->reduced, b->residual, s->ndof * sizeof *b->reduced);
+    b->unbalanced = system_norm (s, b->reduced, s->nred);
+    b->unmeasured++;
+    return b->scale > 0 ? b->unbalanced / b->scale : 0;
 }
 
 /* What forces are compared with, and between two rounds the residual, for a run that goes on later. */
 pg_status system_keep_residual (pg_system *s, const pg_keeper *k)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    long at_hand = s->at_hand;
-    double number[2] = { s->reference, s->scale };
+    long at_hand = b->at_hand;
+    double number[2] = { b->reference, b->scale };
     PG_TRY (k->counts (k->context, "system.at_hand", 1, &at_hand));
     PG_KEEP_BOUND (k, "a residual at hand", at_hand, 0, 1);
-    s->at_hand = at_hand != 0;
+    b->at_hand = at_hand != 0;
     PG_TRY (k->numbers (k->context, "system.references", 2, number));
-    s->reference = number[0], s->scale = number[1];
-    if (at_hand) PG_TRY (k->numbers (k->context, "system.residual", s->ndof, s->residual));
+    b->reference = number[0], b->scale = number[1];
+    if (at_hand) PG_TRY (k->numbers (k->context, "system.residual", s->ndof, b->residual));
 done:
     return status;
 }

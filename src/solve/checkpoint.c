@@ -241,8 +241,8 @@ static pg_status keep_earlier_paths (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     if (s->problem->dim != 2 || !pg_problem_grows (s->problem)) return PG_OK;
-    if (!s->factored_paths) PG_TRY (pg_crack_paths_create (&s->factored_paths, s->problem));
-    PG_TRY (pg_crack_paths_keep (s->factored_paths, s->problem, "system.paths", k));
+    if (!s->direct.factored_paths) PG_TRY (pg_crack_paths_create (&s->direct.factored_paths, s->problem));
+    PG_TRY (pg_crack_paths_keep (s->direct.factored_paths, s->problem, "system.paths", k));
 done:
     return status;
 }
@@ -251,22 +251,23 @@ done:
  * when they were made (`factored`) and the cracks of that moment, from which they are made again. */
 static pg_status keep_preconditioner (pg_system *s, int solves, long factored, const pg_keeper *k)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     size_t nbond = s->problem->first_bond[PG_BOND_SETS];
-    long made = system_has_preconditioner (s) || s->remake;
+    long made = system_has_preconditioner (s) || it->remake;
     int can = solves && (s->force->spares.couplings || s->force->spares.elements) && operates (s) && factored;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
     PG_KEEP_BOUND (k, "the multilevel preconditioner", made, 0, can ? 1 : 0);
     PG_KEEP_BOUND (k, "a factor of the bonds", made ? 0 : factored, 0, system_has_matrix (s) ? 1 : 0);
-    PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
-    PG_TRY (k->numbers (k->context, "system.made", 2, s->made));
-    PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
+    PG_TRY (k->numbers (k->context, "system.pace", 1, &it->pace));
+    PG_TRY (k->numbers (k->context, "system.made", 2, it->made));
+    PG_TRY (k->numbers (k->context, "system.borne", 1, &s->balance.borne));
     if (k->reading) {                                  /* the start of the run may have made one */
         system_forget_preconditioner (s);
-        s->remake = made != 0;
+        it->remake = made != 0;
     }
-    if (k->reading && factored && !s->factored) PG_ALLOC (s->factored, nbond);
-    if (factored) PG_TRY (keep_flags ("system.factored", nbond, s->factored, k));
+    if (k->reading && factored && !s->direct.factored) PG_ALLOC (s->direct.factored, nbond);
+    if (factored) PG_TRY (keep_flags ("system.factored", nbond, s->direct.factored, k));
     if (factored) PG_TRY (keep_earlier_paths (s, k));
 done:
     return status;
@@ -275,13 +276,14 @@ done:
 /* What has broken since the factor of a motion was made. */
 static pg_status keep_following (pg_system *s, const pg_keeper *k)
 {
+    system_updates *u = &s->updates;
     pg_status status = PG_OK;
-    long count = s->following && s->mode == SYSTEM_KEPT_FACTOR;
+    long count = u->following && s->choice.mode == SYSTEM_KEPT_FACTOR;
     PG_TRY (k->counts (k->context, "system.following", 1, &count));
-    PG_KEEP_BOUND (k, "what follows a factor", count, 0, s->mode == SYSTEM_KEPT_FACTOR ? 1 : 0);
-    if (!count && k->reading) event_solver_free (&s->following);
-    if (count && !s->following) PG_TRY (event_solver_create (&s->following, s, 0, NULL));
-    if (count && s->following) PG_TRY (event_solver_keep (s->following, k));
+    PG_KEEP_BOUND (k, "what follows a factor", count, 0, s->choice.mode == SYSTEM_KEPT_FACTOR ? 1 : 0);
+    if (!count && k->reading) event_solver_free (&u->following);
+    if (count && !u->following) PG_TRY (event_solver_create (&u->following, s, 0, NULL));
+    if (count && u->following) PG_TRY (event_solver_keep (u->following, k));
 done:
     return status;
 }
@@ -307,38 +309,42 @@ done:
  * way to solve that this force does not have is refused. */
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
+    system_updates *u = &s->updates;
+    system_choice *c = &s->choice;
+    system_factor *f = &s->direct;
     pg_status status = PG_OK;
     /* without a factor, and after its preconditioner was dropped, no use is made of `factored` any more */
-    int made_of = s->factored && (system_has_matrix (s) || system_has_preconditioner (s) || s->remake);
-    long count[11] = { s->mode,  s->indefinite, s->kept,   s->marked, made_of,
-                      s->stale, s->unshifted,  s->spared, s->base,   s->loose,
-                       s->by_columns };
-    double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };
+    int made_of = f->factored
+                  && (system_has_matrix (s) || system_has_preconditioner (s) || s->iterative.remake);
+    long count[11] = { c->mode,  f->indefinite, c->kept,   f->marked, made_of,
+                      f->stale, f->unshifted,  c->spared, u->base,   f->loose,
+                       u->by_columns };
+    double number[3] = { f->mean_diagonal, f->shift, c->extra_cost };
     PG_TRY (k->counts (k->context, "system.counts", 11, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
-    if (s->diagonal0) PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
-    PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
+    if (f->diagonal0) PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, f->diagonal0));
+    PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, f->touched, k));
     PG_KEEP_BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
            !system_has_matrix (s) && count[0] < SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_DIAGONAL);
     PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
     PG_KEEP_BOUND (k, "the base of events", count[8], 0, count[4]);
     PG_KEEP_BOUND (k, "whether parts are loose", count[9], 0, 1);
-    s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
-    s->spared = count[7], s->base = (int) count[8], s->loose = (int) count[9];
-    s->by_columns = count[10];
-    s->mean_diagonal = number[0], s->shift = number[1], s->extra_cost = number[2];
+    c->mode = (int) count[0], c->kept = count[2], f->marked = (int) count[3], f->unshifted = (int) count[6],
+        c->spared = count[7], u->base = (int) count[8], f->loose = (int) count[9];
+    u->by_columns = count[10];
+    f->mean_diagonal = number[0], f->shift = number[1], c->extra_cost = number[2];
     /* K had become indefinite: the method of factoring is changed as it was in the first run. */
-    if (k->reading && count[1] && !s->indefinite) {
-        if (s->factor) s->linear->free (&s->factor);
-        s->linear = pg_linear_first (0, 1);
-        s->indefinite = 1;
+    if (k->reading && count[1] && !f->indefinite) {
+        if (f->factor) f->linear->free (&f->factor);
+        f->linear = pg_linear_first (0, 1);
+        f->indefinite = 1;
     }
     PG_TRY (keep_preconditioner (s, solves, count[4], k));
     PG_TRY (system_guess_keep (s, k));
     PG_TRY (system_keep_residual (s, k));
     PG_TRY (keep_following (s, k));
-    PG_TRY (keep_ways (&s->ways, &s->rough, k));
-    s->stale = (int) count[5];
+    PG_TRY (keep_ways (&c->ways, &s->iterative.rough, k));
+    f->stale = (int) count[5];
 done:
     return status;
 }
@@ -397,13 +403,14 @@ static pg_status rebuild_earlier (pg_solver *s, pg_state *state)
     pg_system *sys = &s->break_loop.system;
     unsigned char *alive = state->alive;
     pg_crack_paths *paths = state->paths;
-    double extra_cost = sys->extra_cost, pace = sys->pace;
-    state->alive = sys->factored;
-    if (sys->factored_paths) state->paths = sys->factored_paths, sys->factored_paths = NULL;
+    double extra_cost = sys->choice.extra_cost, pace = sys->iterative.pace;
+    state->alive = sys->direct.factored;
+    if (sys->direct.factored_paths) state->paths = sys->direct.factored_paths,
+        sys->direct.factored_paths = NULL;
     PG_TRY (system_refresh (sys, state, NULL));
-    if (sys->remake) {
-        PG_TRY (system_make_preconditioner (sys, sys->made[0], sys->made[1]));
-        sys->extra_cost = extra_cost, sys->pace = pace, sys->remake = 0;
+    if (sys->iterative.remake) {
+        PG_TRY (system_make_preconditioner (sys, sys->iterative.made[0], sys->iterative.made[1]));
+        sys->choice.extra_cost = extra_cost, sys->iterative.pace = pace, sys->iterative.remake = 0;
     } else PG_TRY (system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL));
 done:
     if (state->paths != paths) pg_crack_paths_free (&state->paths);
@@ -420,15 +427,16 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     /* Making caches counts factorisations and solves; the report must not show those that the first run
      * did not make, only their seconds. */
     pg_statistics counts = s->report;
-    int stale = sys->stale, fresh = sys->guess.fresh;
-    if (sys->factored && (sys->remake || sys->mode == SYSTEM_KEPT_FACTOR || sys->base || !stale))
+    int stale = sys->direct.stale, fresh = sys->iterative.guess.fresh;
+    if (sys->direct.factored
+        && (sys->iterative.remake || sys->choice.mode == SYSTEM_KEPT_FACTOR || sys->updates.base || !stale))
         PG_TRY (rebuild_earlier (s, state));
     else stale = 1;
     PG_TRY (system_refresh (sys, state, NULL));
-    sys->stale = stale, sys->guess.fresh = fresh;
+    sys->direct.stale = stale, sys->iterative.guess.fresh = fresh;
     memcpy (counts.seconds, s->report.seconds, sizeof counts.seconds);
     s->report = counts;
-    if (sys->following) PG_TRY (event_solver_restore (sys->following));
+    if (sys->updates.following) PG_TRY (event_solver_restore (sys->updates.following));
 done:
     return status;
 }

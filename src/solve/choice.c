@@ -47,13 +47,14 @@ static int by_elements (const pg_system *s, int can)
     if (s->problem->sums) return 0;
     pg_solve_counts c = pg_solve_count (s->problem);
     c.columns = contact_columns (s);
-    return pg_solve_by_elements (&c, can && s->force->spares.elements, s->serves, 0);
+    return pg_solve_by_elements (&c, can && s->force->spares.elements, s->updates.serves, 0);
 }
 
 /* solver.linear says it, a force without a matrix leaves no choice, and in a small time step the mass
  * dominates: then a few iterations without any factor do, which is simply tried. */
 pg_status system_choose (pg_system *s, const dynamics *dyn)
 {
+    system_choice *c = &s->choice;
     pg_status status = PG_OK;
     int can, operates = s->force->operator_ && s->force->operator_ (s->self);
     int automatic = strcmp (s->options->linear, "auto") == 0 && operates;
@@ -62,12 +63,12 @@ pg_status system_choose (pg_system *s, const dynamics *dyn)
         pg_statistics_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that "
                                        "tells the rows of K, with supports on points: the diagonal instead "
                                        "where there is no factor");
-    s->mode = SYSTEM_FACTOR;
-    if (!system_has_matrix (s) || (!s->linear->factors && operates))
-        s->mode = dyn && can ? SYSTEM_TRIAL : SYSTEM_NO_FACTOR;
-    else if (automatic && dyn) s->mode = SYSTEM_TRIAL;
+    c->mode = SYSTEM_FACTOR;
+    if (!system_has_matrix (s) || (!s->direct.linear->factors && operates))
+        c->mode = dyn && can ? SYSTEM_TRIAL : SYSTEM_NO_FACTOR;
+    else if (automatic && dyn) c->mode = SYSTEM_TRIAL;
     else if (automatic && (by_bond_loops (s, can) || by_elements (s, can))) {
-        s->mode = SYSTEM_NO_FACTOR;
+        c->mode = SYSTEM_NO_FACTOR;
         pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization",
                             s->problem->sums ? "so many points: conjugate gradients with sums over the bonds "
                                                "are cheaper by stored rates"

@@ -23,8 +23,9 @@ static void load_column (const pg_system *s, size_t j, double *full, double *red
 /* Is the factor at hand that of this K? */
 static int has_factor (const pg_system *s)
 {
-    return s->factor && !s->stale && s->linear->factors
-           && (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR || s->mode == SYSTEM_UNDECIDED);
+    return s->direct.factor && !s->direct.stale && s->direct.linear->factors
+           && (s->choice.mode == SYSTEM_FACTOR || s->choice.mode == SYSTEM_KEPT_FACTOR
+               || s->choice.mode == SYSTEM_UNDECIDED);
 }
 
 /* What K z leaves of the columns of G', over the larger of both: springs of weak unknowns in the factor show
@@ -38,9 +39,9 @@ static double rest_of_columns (pg_system *s, const double *rhs, const double *so
         const double *z = solved + j * s->nred, *b = rhs + j * s->nred;
         double *r = rest + j * s->nred, left = 0, size = 0;
         if (T) {
-            pg_sparse_multiply (T, z, s->full);
-            system_multiply (s, s->full, s->scratch);
-            pg_sparse_multiply_transposed (T, s->scratch, r);
+            pg_sparse_multiply (T, z, s->balance.full);
+            system_multiply (s, s->balance.full, s->balance.scratch);
+            pg_sparse_multiply_transposed (T, s->balance.scratch, r);
         } else system_multiply (s, z, r);
         for (size_t k = 0; k < s->nred; k++) {
             r[k] = b[k] - r[k];
@@ -73,7 +74,7 @@ static pg_status refine_columns (pg_system *s, const double *rhs, double *solved
         }
         if (left <= REFINED) break;
         before = left;
-        PG_TRY (s->linear->solve (s->factor, n, rest, step));
+        PG_TRY (s->direct.linear->solve (s->direct.factor, n, rest, step));
         for (size_t k = 0; k < s->nred * n; k++) solved[k] += step[k];
         s->report->contact_columns += (long) n;
     }
@@ -101,6 +102,8 @@ double contact_columns (const pg_system *s)
  * leave of a column is found by the rounds that follow, which are fewer than columns. */
 static pg_status solve_columns (pg_system *s, const dynamics *dyn)
 {
+    system_balance *b = &s->balance;
+    system_factor *f = &s->direct;
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
@@ -111,39 +114,39 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     PG_ALLOC (solved, s->nred * n);
     if (dyn) {                                         /* iterations would carry it along */
         PG_ALLOC (kept, s->ndof);
-        memcpy (kept, s->residual, s->ndof * sizeof *kept);
+        memcpy (kept, b->residual, s->ndof * sizeof *kept);
     }
-    for (size_t j = 0; j < n; j++) load_column (s, j, s->full, rhs + j * s->nred);
+    for (size_t j = 0; j < n; j++) load_column (s, j, b->full, rhs + j * s->nred);
     /* so many columns are worth a factor of this K where an older one would only precondition; else the first
      * solve makes the factor if there is to be one */
-    if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
+    if (s->choice.mode == SYSTEM_KEPT_FACTOR && f->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
     /* not counted among the solves, of which every so many are measured: a resumed run has these again */
     long solves = s->report->solves;
     size_t first = 0;
     for (; first < n && !has_factor (s); first++) {
         if (!needs_column (c, first)) continue;
         /* iterations over all unknowns begin at the full residual */
-        load_column (s, first, s->residual, s->reduced);
-        s->known = s->carried = 0;
-        memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
-        memset (s->delta, 0, s->nred * sizeof *s->delta);
+        load_column (s, first, b->residual, b->reduced);
+        b->known = b->carried = 0;
+        memcpy (b->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
+        memset (b->delta, 0, s->nred * sizeof *b->delta);
         PG_TRY (system_solve_once (s, dyn, c->pieces.dim == 3 ? COLUMN_SPACE : COLUMN));
-        memcpy (solved + first * s->nred, s->delta, s->nred * sizeof *rhs);
+        memcpy (solved + first * s->nred, b->delta, s->nred * sizeof *rhs);
     }
     if (first < n)
-        PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
+        PG_TRY (f->linear->solve (f->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
     s->report->solves = solves;
     long columns = s->report->contact_columns;
     s->report->contact_columns += (long) n;
     PG_TRY (refine_columns (s, rhs, solved, n));
     /* nor are these columns among those of the run, when a resumed one has them again */
-    if (c->again == s->revision + 1) s->report->contact_columns = columns;
+    if (c->again == f->revision + 1) s->report->contact_columns = columns;
     c->again = 0;
     for (size_t j = 0; j < n; j++)
         if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
         else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);
 done:
-    if (kept) memcpy (s->residual, kept, s->ndof * sizeof *kept);
+    if (kept) memcpy (b->residual, kept, s->ndof * sizeof *kept);
     pg_free (rhs), pg_free (solved), pg_free (kept);
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
@@ -153,7 +156,8 @@ pg_status contact_factor (pg_system *s)
 {
     const struct system_contact *c = s->contact;
     int worth = c->touched && c->pieces.dim * c->pieces.n > MANY;
-    return worth && s->mode == SYSTEM_KEPT_FACTOR && s->stale ? system_factorize (s, NULL) : PG_OK;
+    return worth && s->choice.mode == SYSTEM_KEPT_FACTOR && s->direct.stale ? system_factorize (s, NULL)
+           : PG_OK;
 }
 
 /* C = G Z, symmetric but for rounding, which is taken out. */
@@ -162,7 +166,7 @@ pg_status contact_condense (pg_system *s, const dynamics *dyn)
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
-    if (c->made == s->revision + 1) return PG_OK;
+    if (c->made == s->direct.revision + 1) return PG_OK;
     double t0 = pg_seconds ();
     PG_TRY (solve_columns (s, dyn));
     if (!c->C) PG_ALLOC (c->C, n * n);
@@ -181,7 +185,7 @@ pg_status contact_condense (pg_system *s, const dynamics *dyn)
     double most = 0;
     for (size_t j = 0; j < n; j++) most = fmax (most, c->C[j * n + j]);
     for (size_t j = 0; j < n; j++) if (!(c->C[j * n + j] > 0)) c->C[j * n + j] = most;
-    c->made = s->revision + 1;
+    c->made = s->direct.revision + 1;
     s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;

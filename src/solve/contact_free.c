@@ -243,7 +243,7 @@ static size_t runs_away (const problem_of_motions *w, const double *left, double
  * */
 static void find_noise (problem_of_motions *w, const double *open)
 {
-    double most = fmax (w->s->reference, w->s->borne);
+    double most = fmax (w->s->balance.reference, w->s->balance.borne);
     size_t dim = w->c->pieces.dim;
     for (size_t i = 0; i < w->rows; i += dim) {
         double gap = open[i], stiff = w->c->C[i * w->rows + i];

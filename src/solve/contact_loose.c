@@ -90,14 +90,14 @@ void loose_free (contact_loose *l)
 void loose_matrix (const pg_system *s, const pg_sparse *K, double *value)
 {
     const contact_loose *l = s->contact ? &s->contact->loose : NULL;
-    for (size_t j = 0; l && j < l->n; j++) value[K->start[l->prop[j] + 1] - 1] += s->mean_diagonal;
+    for (size_t j = 0; l && j < l->n; j++) value[K->start[l->prop[j] + 1] - 1] += s->direct.mean_diagonal;
 }
 
 void loose_forces (const pg_system *s, const double *d, double *residual)
 {
     const contact_loose *l = s->contact ? &s->contact->loose : NULL;
     for (size_t j = 0; l && j < l->n; j++)
-        residual[l->prop[j]] -= s->mean_diagonal * (d[l->prop[j]] - l->target[j]);
+        residual[l->prop[j]] -= s->direct.mean_diagonal * (d[l->prop[j]] - l->target[j]);
 }
 
 double loose_pull (const pg_system *s, const double *d)
@@ -105,7 +105,7 @@ double loose_pull (const pg_system *s, const double *d)
     const contact_loose *l = &s->contact->loose;
     double most = 0;
     for (size_t j = 0; j < l->n; j++)
-        most = fmax (most, s->mean_diagonal * fabs (d[l->prop[j]] - l->target[j]));
+        most = fmax (most, s->direct.mean_diagonal * fabs (d[l->prop[j]] - l->target[j]));
     return most;
 }
 

@@ -265,7 +265,8 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (platens_keep (s, k));
     if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
     long count[10] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps, c->touched,
-                       c->made == s->revision + 1, r->contact_pieces, r->contact_open, r->contact_stick,
+                       c->made == s->direct.revision + 1, r->contact_pieces, r->contact_open,
+                           r->contact_stick,
                        r->contact_sliding };
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
@@ -275,7 +276,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
     c->active = (int) count[1], r->contact_passes = count[2], r->contact_sweeps = count[3];
     c->touched = count[4] != 0;
-    if (k->reading) c->again = count[5] ? s->revision + 1 : 0;
+    if (k->reading) c->again = count[5] ? s->direct.revision + 1 : 0;
     PG_TRY (contact_route_keep (s, k));
     if (!c->pieces.n) return PG_OK;
     PG_TRY (k->numbers (k->context, "contact.force", c->pieces.dim * c->pieces.n, c->force));

@@ -115,16 +115,17 @@ static pg_status begin_at (pg_system *s, double at)
 /* One end of the way may bear next to nothing: it is measured by the forces of the other one, too. */
 static pg_status balance (pg_system *s, double t, double *d, double *residual)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    const double borne = s->borne, reference = s->contact->route.reference;
+    const double borne = b->borne, reference = s->contact->route.reference;
     if (reference > 0) PG_TRY (system_residual (s, t, d, NULL, residual));
-    if (reference > 0 && s->unbalanced <= BALANCED * reference) {
-        *residual = fmin (*residual, s->unbalanced / reference);
+    if (reference > 0 && b->unbalanced <= BALANCED * reference) {
+        *residual = fmin (*residual, b->unbalanced / reference);
         return PG_OK;
     }
-    s->borne = fmax (borne, reference);
+    b->borne = fmax (borne, reference);
     status = system_solve_linear (s, t, d, NULL, residual);
-    s->borne = borne;
+    b->borne = borne;
 done:
     return status;
 }
@@ -142,14 +143,14 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
                  "with a constant part, or in stages: use stepping: fixed");
     PG_TRY (make_room (s));
     /* the end of a stage that takes all loads off bears nothing, and comes first */
-    s->borne = fmax (s->borne, r->reference);
+    s->balance.borne = fmax (s->balance.borne, r->reference);
     *residual = r->reference = 0, r->from = from, c->active = 0, r->touches = 0;
     PG_TRY (contact_factor (s));
     for (int i = 1; i >= 0; i--) {
         double one, *row = i ? r->rate : r->gap;
         if (!known) memcpy (r->open[i], guess[i], s->ndof * sizeof *r->open[i]);
         PG_TRY (balance (s, from + i, r->open[i], &one));
-        *residual = fmax (*residual, one), r->reference = fmax (r->reference, s->reference);
+        *residual = fmax (*residual, one), r->reference = fmax (r->reference, s->balance.reference);
         if (rows_of (c)) pg_sparse_multiply_transposed (&c->G, r->open[i], row);
         for (size_t k = 0; k < rows_of (c); k++) row[k] += c->initial[k];
         for (size_t k = 0; k < c->pieces.n; k++) r->touches |= row[c->pieces.dim * k] < 0;

@@ -182,7 +182,7 @@ done:
 /* A factor of K itself, which elimination of prescribed values has not. */
 static int has_factor (const pg_system *s)
 {
-    return system_has_matrix (s) && s->linear->factors;
+    return system_has_matrix (s) && s->direct.linear->factors;
 }
 
 pg_status contact_check (const pg_system *s)
@@ -204,7 +204,7 @@ pg_status contact_check (const pg_system *s)
     if (!has_factor (s))
         PG_TRY (options_fault (s->options, "solver.linear",
                                "with contact.kind new cracks are tried by a factor of K, which %s has not: "
-                               "use auto, or leave the strengths out", s->linear->name));
+                               "use auto, or leave the strengths out", s->direct.linear->name));
     if (s->force->basis && s->force->basis (s->self))
         PG_TRY (options_fault (s->options, "method.essential",
                                "with contact.kind new cracks are tried by a factor of K itself, which "
@@ -327,7 +327,7 @@ void contact_count (pg_system *s)
 static pg_status check_loose (const pg_system *s, const double *d)
 {
     const contact_loose *l = &s->contact->loose;
-    double pull = loose_pull (s, d), size = fmax (s->reference, s->borne);
+    double pull = loose_pull (s, d), size = fmax (s->balance.reference, s->balance.borne);
     if (!l->n || pull <= fmax (s->options->tolerance * size, l->noise)) return PG_OK;
     char place[BODY_PART_WORDS];
     body_part_place (s->problem, &l->part[0], place, sizeof place);
@@ -351,15 +351,15 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics 
     if (c->platens.n) memset (d, 0, s->ndof * sizeof *d);
     platens_place (s, t);
     for (size_t j = 0; j < c->loose.n; j++) c->loose.amount[j] = c->loose.target[j] = 0;
-    if (c->loose.n && (s->stale || !s->factor)) {
+    if (c->loose.n && (s->direct.stale || !s->direct.factor)) {
         PG_TRY (contact_check (s));
-        s->mode = SYSTEM_FACTOR;
+        s->choice.mode = SYSTEM_FACTOR;
         PG_TRY (system_factorize (s, NULL));
     }
     if (!dyn) PG_TRY (contact_factor (s));
     PG_TRY (system_solve_linear (s, t, d, dyn, residual));
     if (n) contact_gaps (c, d);
-    s->begins = 0;                                     /* first guesses are those of the open faces */
+    s->choice.begins = 0;                                     /* first guesses are those of the open faces */
     double change = 1;
     int closes = c->touched = any_overlap (c) || contact_motions (s) > 0;
     if (closes) PG_TRY (contact_condense (s, dyn));

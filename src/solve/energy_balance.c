@@ -11,16 +11,17 @@
 static pg_status balance_in_motion (pg_system *s, double t, const double *d, const pg_work_balance *w,
                                     const dynamics *dyn)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     pg_work_balance own = { 0 };
     if (!force_balance_due (s)) return PG_OK;
-    memset (s->full, 0, s->ndof * sizeof *s->full);
-    dyn->resist (dyn->context, d, s->full);
+    memset (b->full, 0, s->ndof * sizeof *b->full);
+    dyn->resist (dyn->context, d, b->full);
     if (dyn->leave) {
-        dyn->leave (dyn->context, d, s->full);
-        PG_TRY (s->force->work (s->self, t, d, &(pg_known){ .inertia = s->full }, &own));
+        dyn->leave (dyn->context, d, b->full);
+        PG_TRY (s->force->work (s->self, t, d, &(pg_known){ .inertia = b->full }, &own));
     }
-    force_balance (s, d, dyn->leave ? &own : w, s->full);
+    force_balance (s, d, dyn->leave ? &own : w, b->full);
 done:
     pg_work_balance_clear (&own);
     return status;
@@ -38,13 +39,14 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     pg_system *s = &b->system;
     if (!s->force->work) return PG_OK;
     double t0 = pg_seconds ();
-    const double *contact = s->excavated ? s->excavated : contact_forces (s);
+    const double *contact = s->balance.excavated ? s->balance.excavated : contact_forces (s);
     pg_known known = { 0 };
-    if (dyn && dyn->whole && s->known && !s->options->plain) known.residual = s->residual, known.whole = 1;
+    if (dyn && dyn->whole && s->balance.known && !s->options->plain) known.residual = s->balance.residual,
+        known.whole = 1;
     else if (dyn) {
-        memset (s->full, 0, s->ndof * sizeof *s->full);
-        dyn->resist (dyn->context, d, s->full);
-        known.inertia = s->full;
+        memset (s->balance.full, 0, s->ndof * sizeof *s->balance.full);
+        dyn->resist (dyn->context, d, s->balance.full);
+        known.inertia = s->balance.full;
     }
     else known.inertia = contact, known.rest = rest && !contact && !s->problem->plain;
     PG_TRY (s->force->work (s->self, t, d, &known, &b->work_balance));

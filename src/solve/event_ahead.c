@@ -66,9 +66,9 @@ void ahead_forget (event_ahead *q)
 static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes *changes)
 {
     pg_system *sys = &s->break_loop.system;
-    long updates = s->report.updates, kept = sys->kept;
+    long updates = s->report.updates, kept = sys->choice.kept;
     pg_status status = system_refresh (sys, state, changes);
-    s->report.updates = updates, sys->kept = kept;         /* a trial is no event of the run */
+    s->report.updates = updates, sys->choice.kept = kept;         /* a trial is no event of the run */
     return status;
 }
 

@@ -16,30 +16,33 @@ static const double dense_rate = 20e9;
  * columns again group by group, unknowns of later groups are touched already. */
 static void unit_forces (event_solver *e, size_t first, const pg_sparse *T)
 {
-    size_t count = e->t - first;
-    memset (e->rhs, 0, count * e->nred * sizeof *e->rhs);
+    green_columns *g = &e->columns;
+    touched_unknowns *w = &e->touched;
+    size_t count = w->t - first;
+    memset (g->rhs, 0, count * e->nred * sizeof *g->rhs);
     if (!T) {
-        for (size_t k = 0; k < count; k++) e->rhs[k * e->nred + e->dof[first + k]] = 1;
+        for (size_t k = 0; k < count; k++) g->rhs[k * e->nred + w->dof[first + k]] = 1;
         return;
     }
     for (size_t j = 0; j < T->ncol; j++)
         for (long q = T->start[j]; q < T->start[j + 1]; q++) {
-            int at = e->at[T->row[q]];
-            if (at <= (int) first || at > (int) e->t) continue;
-            e->rhs[((size_t) at - 1 - first) * e->nred + j] = T->value[q];
+            int at = w->at[T->row[q]];
+            if (at <= (int) first || at > (int) w->t) continue;
+            g->rhs[((size_t) at - 1 - first) * e->nred + j] = T->value[q];
         }
 }
 
 /* Room for the columns of all touched unknowns, zero, and for as many right-hand sides as are new. */
 static pg_status make_room (event_solver *e, size_t count)
 {
+    green_columns *g = &e->columns;
     pg_status status = PG_OK;
-    PG_GROW (e->chunk, e->room_chunk, (e->t + CHUNK - 1) / CHUNK);
-    for (; e->nchunk * CHUNK < e->t; e->nchunk++) {
-        e->chunk[e->nchunk] = NULL;
-        PG_ALLOC (e->chunk[e->nchunk], CHUNK * e->ndof);
+    PG_GROW (g->chunk, g->room_chunk, (e->touched.t + CHUNK - 1) / CHUNK);
+    for (; g->nchunk * CHUNK < e->touched.t; g->nchunk++) {
+        g->chunk[g->nchunk] = NULL;
+        PG_ALLOC (g->chunk[g->nchunk], CHUNK * e->ndof);
     }
-    PG_GROW (e->rhs, e->room_rhs, count * e->nred);
+    PG_GROW (g->rhs, g->room_rhs, count * e->nred);
 done:
     return status;
 }
@@ -47,19 +50,21 @@ done:
 /* All new columns by one solve with as many right-hand sides. */
 pg_status columns_make (event_solver *e, size_t first)
 {
+    green_columns *g = &e->columns;
     pg_status status = PG_OK;
     pg_system *s = e->s;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    size_t count = e->t - first;
+    size_t count = e->touched.t - first;
     PG_TRY (make_room (e, count));
-    PG_GROW (e->solved, e->room_solved, count * e->nred);
+    PG_GROW (g->solved, g->room_solved, count * e->nred);
     unit_forces (e, first, T);
-    PG_TRY ((s->linear->solve_few ? s->linear->solve_few : s->linear->solve) (s->factor, count, e->rhs,
-                                                                             e->solved));
+    const pg_linear_type *linear = s->direct.linear;
+    PG_TRY ((linear->solve_few ? linear->solve_few : linear->solve) (s->direct.factor, count, g->rhs,
+                                                                     g->solved));
     for (size_t k = 0; k < count; k++) {
-        double *to = e->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
-        if (T) pg_sparse_multiply (T, e->solved + k * e->nred, to);
-        else memcpy (to, e->solved + k * e->nred, e->ndof * sizeof *to);
+        double *to = g->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
+        if (T) pg_sparse_multiply (T, g->solved + k * e->nred, to);
+        else memcpy (to, g->solved + k * e->nred, e->ndof * sizeof *to);
     }
 done:
     return status;
@@ -69,7 +74,8 @@ done:
 static void add_products (event_solver *e, size_t a, size_t na, size_t b, size_t nb, size_t from, size_t end)
 {
     pg_dense_multiply (1, na, nb, end - from, 1, green_column (e, a) + from, e->ndof,
-                       green_column (e, b) + from, e->ndof, 1, e->H + a + b * e->cap, e->cap);
+                       green_column (e, b) + from, e->ndof, 1, e->touched.H + a + b * e->touched.cap,
+                           e->touched.cap);
 }
 
 /* Only half of each solve: places that a unit force reaches in the factor are few, and H is all that is asked
@@ -77,35 +83,37 @@ static void add_products (event_solver *e, size_t a, size_t na, size_t b, size_t
  * counts, so that H is symmetric to the last bit. */
 pg_status columns_halve (event_solver *e, size_t first)
 {
+    green_columns *g = &e->columns;
+    touched_unknowns *w = &e->touched;
     pg_status status = PG_OK;
     pg_system *s = e->s;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    size_t count = e->t - first, n;
+    size_t count = w->t - first, n;
     const size_t *interval;
     pg_linear_info info;
     PG_TRY (make_room (e, count));
-    PG_GROW (e->half, e->room_half, count);
+    PG_GROW (g->half, g->room_half, count);
     for (size_t k = 0; k < count; k++)
-        e->half[k] = e->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
+        g->half[k] = g->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
     unit_forces (e, first, T);
-    s->linear->info (s->factor, &info);
+    s->direct.linear->info (s->direct.factor, &info);
     double before = info.half_flops, flops = 0;
-    PG_TRY (s->linear->half_few (s->factor, count, e->rhs, e->half, &n, &interval));
-    s->linear->info (s->factor, &info);
+    PG_TRY (s->direct.linear->half_few (s->direct.factor, count, g->rhs, g->half, &n, &interval));
+    s->direct.linear->info (s->direct.factor, &info);
     for (size_t k = 0; k < n; k++)
-        flops += 2 * (double) count * (double) e->t * (double) (interval[2 * k + 1] - interval[2 * k]);
-    e->green += (info.half_flops - before + flops) / dense_rate;
-    for (size_t j = first; j < e->t; j++) memset (e->H + j * e->cap, 0, e->t * sizeof *e->H);
-    for (size_t b = first, nb; b < e->t; b += nb) {
-        nb = CHUNK - b % CHUNK < e->t - b ? CHUNK - b % CHUNK : e->t - b;
+        flops += 2 * (double) count * (double) w->t * (double) (interval[2 * k + 1] - interval[2 * k]);
+    g->seconds += (info.half_flops - before + flops) / dense_rate;
+    for (size_t j = first; j < w->t; j++) memset (w->H + j * w->cap, 0, w->t * sizeof *w->H);
+    for (size_t b = first, nb; b < w->t; b += nb) {
+        nb = CHUNK - b % CHUNK < w->t - b ? CHUNK - b % CHUNK : w->t - b;
         for (size_t a = 0, na; a < b + nb; a += na) {
             na = CHUNK < b + nb - a ? CHUNK : b + nb - a;
             for (size_t k = 0; k < n; k++)
                 add_products (e, a, na, b, nb, interval[2 * k], interval[2 * k + 1]);
         }
     }
-    for (size_t j = first; j < e->t; j++)
-        for (size_t i = 0; i < j; i++) e->H[j + i * e->cap] = e->H[i + j * e->cap];
+    for (size_t j = first; j < w->t; j++)
+        for (size_t i = 0; i < j; i++) w->H[j + i * w->cap] = w->H[i + j * w->cap];
 done:
     return status;
 }
@@ -113,19 +121,20 @@ done:
 void columns_unload (const event_solver *e, const double *y, double *r)
 {
     const pg_sparse *T = e->s->force->basis ? e->s->force->basis (e->s->self) : NULL;
-    for (size_t i = 0; !T && i < e->t; i++) r[e->dof[i]] -= y[i];
+    for (size_t i = 0; !T && i < e->touched.t; i++) r[e->touched.dof[i]] -= y[i];
     for (size_t j = 0; T && j < T->ncol; j++)
         for (long q = T->start[j]; q < T->start[j + 1]; q++) {
-            int at = e->at[T->row[q]];
+            int at = e->touched.at[T->row[q]];
             if (at) r[j] -= T->value[q] * y[at - 1];
         }
 }
 
 void columns_times (const event_solver *e, double a, const double *x, double *y)
 {
-    if (e->t == 0 && a == 0) memset (y, 0, e->ndof * sizeof *y);
-    for (size_t i = 0; i < e->t; i += CHUNK) {
-        size_t some = e->t - i < CHUNK ? e->t - i : CHUNK;
+    const touched_unknowns *w = &e->touched;
+    if (w->t == 0 && a == 0) memset (y, 0, e->ndof * sizeof *y);
+    for (size_t i = 0; i < w->t; i += CHUNK) {
+        size_t some = w->t - i < CHUNK ? w->t - i : CHUNK;
         pg_dense_multiply (0, e->ndof, 1, some, 1, green_column (e, i), e->ndof, x + i, some, i ? 1 : a, y,
                            e->ndof);
     }
@@ -135,14 +144,15 @@ void columns_times (const event_solver *e, double a, const double *x, double *y)
  * are wanted again and again are gathered once. */
 pg_status columns_watch (event_solver *e)
 {
+    green_columns *g = &e->columns;
     pg_status status = PG_OK;
-    size_t m = (size_t) e->s->components, size = e->nwatched * m;
-    PG_GROW (e->rows, e->room_rows, size * e->t);
-    for (; e->filled < e->t; e->filled++) {
-        const double *G = green_column (e, e->filled);
-        double *to = e->rows + e->filled * size;
-        for (size_t k = 0; k < e->nwatched; k++)
-            for (size_t a = 0; a < m; a++) to[k * m + a] = G[(size_t) e->watched[k] * m + a];
+    size_t m = (size_t) e->s->components, size = g->nwatched * m;
+    PG_GROW (g->rows, g->room_rows, size * e->touched.t);
+    for (; g->filled < e->touched.t; g->filled++) {
+        const double *G = green_column (e, g->filled);
+        double *to = g->rows + g->filled * size;
+        for (size_t k = 0; k < g->nwatched; k++)
+            for (size_t a = 0; a < m; a++) to[k * m + a] = G[(size_t) g->watched[k] * m + a];
     }
 done:
     return status;
@@ -151,13 +161,14 @@ done:
 /* Halves are zero where they were never written, on pages that nothing has touched. */
 void columns_drop (event_solver *e)
 {
-    for (size_t k = 0; k < e->nchunk; k++) pg_free (e->chunk[k]);
-    e->nchunk = 0;
+    for (size_t k = 0; k < e->columns.nchunk; k++) pg_free (e->columns.chunk[k]);
+    e->columns.nchunk = 0;
 }
 
 void columns_free (event_solver *e)
 {
+    green_columns *g = &e->columns;
     columns_drop (e);
-    pg_free (e->half), pg_free (e->chunk), pg_free (e->rhs), pg_free (e->solved);
-    pg_free (e->watched), pg_free (e->rows);
+    pg_free (g->half), pg_free (g->chunk), pg_free (g->rhs), pg_free (g->solved);
+    pg_free (g->watched), pg_free (g->rows);
 }

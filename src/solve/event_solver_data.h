@@ -8,21 +8,20 @@
 
 enum { CHUNK = 64 };                                   /* columns in a piece of G */
 
-struct event_solver {
-    pg_system *s;
-    int     cases;
-    double  time[EVENT_CASES];                         /* load factor of each case */
-    size_t  ndof, nred;
-    /* ---- base */
-    int     based;
+/* The state that events are changes of. */
+typedef struct {
+    int     made;
     long    factorizations;                            /* of the run when the base was made: its factor */
-    double *base[EVENT_CASES];                         /* u_b (ndof) */
+    double *u[EVENT_CASES];                            /* u_b (ndof) */
     double *constant[EVENT_CASES];                     /* residual of u = 0 at the base, N (ndof) */
     double *diagonal;  /* of the factored matrix at the base, N/m (ndof) */
     double  k;                                         /* that matrix is k K + m M; 1 at rest */
     double  shift;                                     /* that weak unknowns get in a factor, N/m */
     double  scale;                                     /* reference force at the base, N */
-    /* ---- touched unknowns: t of them, arrays of cap, matrices column-major with columns cap apart */
+} event_base;
+
+/* The dense system of t unknowns: arrays of cap, matrices column-major with columns cap apart. */
+typedef struct {
     size_t  t, cap;
     size_t *dof;                                       /* their numbers among the full unknowns */
     int    *at;                                        /* place + 1 of each full unknown (ndof) */
@@ -37,8 +36,11 @@ struct event_solver {
     double *u[EVENT_CASES];                            /* displacement of the touched unknowns, m */
     double *r;                                         /* scratch: cases x cap */
     double *pack, *product;  size_t room_pack, room_product;       /* scratch of gathered blocks */
-    double  residual;                                  /* of the last update, over scale */
-    /* ---- columns */
+    double  residual;                                  /* of the last update, over the scale of the base */
+} touched_unknowns;
+
+/* Columns of the inverse at the base. */
+typedef struct {
     size_t *group, ngroup, room_group;  /* how many unknowns were taken in at a time */
     double **chunk; size_t nchunk, room_chunk;         /* G, in pieces of CHUNK columns (ndof x CHUNK) */
     int     halves;  /* 1: the columns are halves y, of which H is products; 0: Green columns */
@@ -47,14 +49,28 @@ struct event_solver {
     /* watched nodes; their rows of G (node by node, components x t), of which `filled` columns are there */
     int    *watched;  size_t nwatched, filled;
     double *rows;  size_t room_rows;
-    /* ---- block of events: x of event k at X[c][k], zero beyond tX[k]; number 0 is that before the first */
+    double  seconds;  /* of halved columns, by stored rates */
+} green_columns;
+
+/* A block of events: x of event k at X[c][k], zero beyond tX[k]; number 0 is that before the first. */
+typedef struct {
     int     count;
     double *X[EVENT_CASES][EVENT_MOST + 1];
     size_t  tX[EVENT_MOST + 1];
+} event_block;
+
+struct event_solver {
+    pg_system *s;
+    int     cases;
+    double  time[EVENT_CASES];                         /* load factor of each case */
+    size_t  ndof, nred;
+    event_base       base;
+    touched_unknowns touched;
+    green_columns    columns;
+    event_block      block;
     int     restored;  /* 1: read back, and nothing was made again yet */
     const char *why;
     double  rent;  /* dense algebra since the base, in seconds by stored rates */
-    double  green;  /* the same of halved columns */
 };
 
 /* ---- event_touched.c ----------------------------------------------------------------------------------- */
@@ -90,7 +106,7 @@ void      columns_drop  (event_solver *e);             /* frees the columns */
 /* Column i of G. */
 static inline const double *green_column (const event_solver *e, size_t i)
 {
-    return e->chunk[i / CHUNK] + (i % CHUNK) * e->ndof;
+    return e->columns.chunk[i / CHUNK] + (i % CHUNK) * e->ndof;
 }
 /* Takes the columns that came since the last call into the rows of the watched nodes. */
 pg_status columns_watch (event_solver *e);

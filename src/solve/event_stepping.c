@@ -99,7 +99,8 @@ static pg_status begin_stage (pg_solver *s, pg_state *state, double ended)
     const double share = ended - stage_start (s) + 1;  /* of the stage before */
     for (size_t i = 0; i < n; i++)
         e->base[i] = e->unit[i] = e->base[i] + share * (e->unit[i] - e->base[i]);
-    s->break_loop.system.borne = fmax (s->break_loop.system.borne, s->break_loop.system.reference);
+    s->break_loop.system.balance.borne =
+        fmax (s->break_loop.system.balance.borne, s->break_loop.system.balance.reference);
     memcpy (state->d, e->base, n * sizeof *state->d);
     PG_TRY (stage_remove (s, state));
     e->balance_fresh = 0, e->secant0 = 0;
@@ -583,8 +584,8 @@ pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved)
     if (e->engine) event_solver_drop (e->engine);
     ahead_refused (e->ahead);
     PG_TRY (instability_moved (s, &e->unstable, k));
-    event_displacement (s, state->factor, b->system.scratch);
-    PG_TRY (moved_balance (b, state->factor, b->system.scratch, 1));
+    event_displacement (s, state->factor, b->system.balance.scratch);
+    PG_TRY (moved_balance (b, state->factor, b->system.balance.scratch, 1));
 done:
     return status;
 }

@@ -22,18 +22,20 @@ static const double gone = 1e-12;
 
 void touched_free (event_solver *e)
 {
-    pg_free (e->dof), pg_free (e->at), pg_free (e->D), pg_free (e->stay), pg_free (e->H), pg_free (e->M);
-    pg_free (e->factor), pg_free (e->pivot), pg_free (e->r), pg_free (e->group);
-    pg_free (e->pack), pg_free (e->product);
+    touched_unknowns *w = &e->touched;
+    pg_free (w->dof), pg_free (w->at), pg_free (w->D), pg_free (w->stay), pg_free (w->H), pg_free (w->M);
+    pg_free (w->factor), pg_free (w->pivot), pg_free (w->r), pg_free (e->columns.group);
+    pg_free (w->pack), pg_free (w->product);
     for (int c = 0; c < EVENT_CASES; c++)
-        pg_free (e->x[c]), pg_free (e->p[c]), pg_free (e->old[c]), pg_free (e->q[c]), pg_free (e->u[c]);
+        pg_free (w->x[c]), pg_free (w->p[c]), pg_free (w->old[c]), pg_free (w->q[c]), pg_free (w->u[c]);
 }
 
 void touched_clear (event_solver *e)
 {
-    for (size_t i = 0; i < e->t; i++) e->at[e->dof[i]] = 0;
-    e->t = e->ngroup = e->filled = 0, e->factored = 0;
-    if (e->halves) columns_drop (e);
+    touched_unknowns *w = &e->touched;
+    for (size_t i = 0; i < w->t; i++) w->at[w->dof[i]] = 0;
+    w->t = e->columns.ngroup = e->columns.filled = 0, w->factored = 0;
+    if (e->columns.halves) columns_drop (e);
 }
 
 /* A matrix of t columns moves to columns `cap` apart. */
@@ -65,26 +67,27 @@ done:
 /* Room for `count` touched unknowns. */
 pg_status touched_reserve (event_solver *e, size_t count)
 {
+    touched_unknowns *w = &e->touched;
     pg_status status = PG_OK;
-    size_t cap = e->cap ? e->cap : 64, room = e->cap, same = e->cap;
-    if (count <= e->cap) return PG_OK;
+    size_t cap = w->cap ? w->cap : 64, room = w->cap, same = w->cap;
+    if (count <= w->cap) return PG_OK;
     while (cap < count) cap *= 2;
-    PG_GROW (e->dof, room, cap);
-    PG_GROW (e->pivot, same, cap);
-    PG_TRY (widen (&e->D, e->t, e->cap, cap));
-    PG_TRY (widen (&e->H, e->t, e->cap, cap));
-    PG_TRY (widen (&e->M, e->t, e->cap, cap));
-    PG_TRY (lengthen (&e->factor, 0, cap * cap));
-    PG_TRY (lengthen (&e->stay, e->t, cap));
-    PG_TRY (lengthen (&e->r, 0, EVENT_CASES * cap));
+    PG_GROW (w->dof, room, cap);
+    PG_GROW (w->pivot, same, cap);
+    PG_TRY (widen (&w->D, w->t, w->cap, cap));
+    PG_TRY (widen (&w->H, w->t, w->cap, cap));
+    PG_TRY (widen (&w->M, w->t, w->cap, cap));
+    PG_TRY (lengthen (&w->factor, 0, cap * cap));
+    PG_TRY (lengthen (&w->stay, w->t, cap));
+    PG_TRY (lengthen (&w->r, 0, EVENT_CASES * cap));
     for (int c = 0; c < e->cases; c++) {
-        PG_TRY (lengthen (&e->x[c], e->t, cap));
-        PG_TRY (lengthen (&e->p[c], e->t, cap));
-        PG_TRY (lengthen (&e->old[c], e->t, cap));
-        PG_TRY (lengthen (&e->q[c], e->t, cap));
-        PG_TRY (lengthen (&e->u[c], e->t, cap));
+        PG_TRY (lengthen (&w->x[c], w->t, cap));
+        PG_TRY (lengthen (&w->p[c], w->t, cap));
+        PG_TRY (lengthen (&w->old[c], w->t, cap));
+        PG_TRY (lengthen (&w->q[c], w->t, cap));
+        PG_TRY (lengthen (&w->u[c], w->t, cap));
     }
-    e->cap = cap, e->factored = 0;
+    w->cap = cap, w->factored = 0;
 done:
     return status;
 }
@@ -93,11 +96,12 @@ done:
 /* H between all touched unknowns and the new ones, first .. t - 1, symmetric by construction. */
 pg_status touched_green (event_solver *e, size_t first)
 {
-    pg_status status = e->halves ? columns_halve (e, first) : columns_make (e, first);
-    if (status != PG_OK || e->halves) return status;
-    for (size_t j = first; j < e->t; j++) {
+    touched_unknowns *w = &e->touched;
+    pg_status status = e->columns.halves ? columns_halve (e, first) : columns_make (e, first);
+    if (status != PG_OK || e->columns.halves) return status;
+    for (size_t j = first; j < w->t; j++) {
         const double *column = green_column (e, j);
-        for (size_t i = 0; i <= j; i++) e->H[i + j * e->cap] = e->H[j + i * e->cap] = column[e->dof[i]];
+        for (size_t i = 0; i <= j; i++) w->H[i + j * w->cap] = w->H[j + i * w->cap] = column[w->dof[i]];
     }
     return PG_OK;
 }
@@ -106,40 +110,43 @@ pg_status touched_green (event_solver *e, size_t first)
  * are (D + stay) H, rows those of the unit matrix. */
 static void extend (event_solver *e, size_t first)
 {
-    size_t cap = e->cap, fresh = e->t - first;
-    for (size_t j = 0; j < e->t; j++)
-        for (size_t i = j < first ? first : 0; i < e->t; i++) e->D[i + j * cap] = 0;
-    for (size_t j = first; j < e->t; j++) e->stay[j] = 0;
-    pg_dense_multiply (0, first, fresh, first, 1, e->D, cap, e->H + first * cap, cap, 0, e->M + first * cap,
+    touched_unknowns *w = &e->touched;
+    size_t cap = w->cap, fresh = w->t - first;
+    for (size_t j = 0; j < w->t; j++)
+        for (size_t i = j < first ? first : 0; i < w->t; i++) w->D[i + j * cap] = 0;
+    for (size_t j = first; j < w->t; j++) w->stay[j] = 0;
+    pg_dense_multiply (0, first, fresh, first, 1, w->D, cap, w->H + first * cap, cap, 0, w->M + first * cap,
                        cap);
-    for (size_t j = first; j < e->t; j++)
-        for (size_t i = 0; i < first; i++) e->M[i + j * cap] += e->stay[i] * e->H[i + j * cap];
-    for (size_t j = 0; j < e->t; j++)
-        for (size_t i = first; i < e->t; i++) e->M[i + j * cap] = i == j;
+    for (size_t j = first; j < w->t; j++)
+        for (size_t i = 0; i < first; i++) w->M[i + j * cap] += w->stay[i] * w->H[i + j * cap];
+    for (size_t j = 0; j < w->t; j++)
+        for (size_t i = first; i < w->t; i++) w->M[i + j * cap] = i == j;
 }
 
 /* What is known of the new unknowns before anything has changed on them. */
 pg_status touched_grow (event_solver *e, size_t count, const size_t *dof)
 {
+    green_columns *g = &e->columns;
+    touched_unknowns *w = &e->touched;
     pg_status status = PG_OK;
-    size_t first = e->t;
+    size_t first = w->t;
     if (count == 0) return PG_OK;
-    PG_TRY (touched_reserve (e, e->t + count));
-    PG_GROW (e->group, e->room_group, e->ngroup + 1);
-    e->group[e->ngroup++] = count;
-    e->factored = 0;                                   /* which is that of a smaller matrix */
+    PG_TRY (touched_reserve (e, w->t + count));
+    PG_GROW (g->group, g->room_group, g->ngroup + 1);
+    g->group[g->ngroup++] = count;
+    w->factored = 0;                                   /* which is that of a smaller matrix */
     for (size_t k = 0; k < count; k++) {
-        e->dof[e->t] = dof[k];
-        e->at[dof[k]] = (int) ++e->t;
+        w->dof[w->t] = dof[k];
+        w->at[dof[k]] = (int) ++w->t;
     }
     PG_TRY (touched_green (e, first));
     extend (e, first);
     for (int c = 0; c < e->cases; c++)
-        for (size_t i = first; i < e->t; i++) {
-            e->x[c][i] = e->p[c][i] = e->q[c][i] = e->old[c][i] = 0;
+        for (size_t i = first; i < w->t; i++) {
+            w->x[c][i] = w->p[c][i] = w->q[c][i] = w->old[c][i] = 0;
             double sum = 0;
-            for (size_t j = 0; j < first; j++) sum += e->H[j + i * e->cap] * e->x[c][j];
-            e->u[c][i] = e->base[c][dof[i - first]] + sum;
+            for (size_t j = 0; j < first; j++) sum += w->H[j + i * w->cap] * w->x[c][j];
+            w->u[c][i] = e->base.u[c][dof[i - first]] + sum;
         }
 done:
     return status;
@@ -150,8 +157,8 @@ done:
  * old stiffness where nothing is left. */
 static double spring (const event_solver *e, size_t i)
 {
-    double first = e->diagonal[e->dof[i]], now = first + e->D[i + i * e->cap];
-    return now > gone * first ? e->shift : first > 0 ? first : e->shift;
+    double first = e->base.diagonal[e->touched.dof[i]], now = first + e->touched.D[i + i * e->touched.cap];
+    return now > gone * first ? e->base.shift : first > 0 ? first : e->base.shift;
 }
 
 /* D_cc += change, and the rows c of M: place[k] is where row k of the change goes among the touched ones;
@@ -159,28 +166,29 @@ static double spring (const event_solver *e, size_t i)
 static pg_status add_change (event_solver *e, const pg_stiffness_change *change, size_t n,
                              const size_t *row, const size_t *place)
 {
+    touched_unknowns *w = &e->touched;
     pg_status status = PG_OK;
-    size_t cap = e->cap, t = e->t;
+    size_t cap = w->cap, t = w->t;
     double *delta, *Hc;
-    PG_GROW (e->pack, e->room_pack, n * n + n * t);
-    PG_GROW (e->product, e->room_product, n * t);
-    delta = e->pack, Hc = e->pack + n * n;
+    PG_GROW (w->pack, w->room_pack, n * n + n * t);
+    PG_GROW (w->product, w->room_product, n * t);
+    delta = w->pack, Hc = w->pack + n * n;
     for (size_t k = 0; k < n; k++) {
-        memcpy (Hc + k * t, e->H + place[k] * cap, t * sizeof *Hc);
+        memcpy (Hc + k * t, w->H + place[k] * cap, t * sizeof *Hc);
         for (size_t l = 0; l < n; l++) {
-            delta[l + k * n] = e->k * change->K[row[k] * change->width + row[l]];
-            e->D[place[l] + place[k] * cap] += delta[l + k * n];
+            delta[l + k * n] = e->base.k * change->K[row[k] * change->width + row[l]];
+            w->D[place[l] + place[k] * cap] += delta[l + k * n];
         }
     }
     for (size_t k = 0; k < n; k++) {
         double stay = spring (e, place[k]);
-        delta[k + k * n] += stay - e->stay[place[k]];
-        e->stay[place[k]] = stay;
+        delta[k + k * n] += stay - w->stay[place[k]];
+        w->stay[place[k]] = stay;
     }
-    pg_dense_multiply (0, t, n, n, 1, Hc, t, delta, n, 0, e->product, t);
+    pg_dense_multiply (0, t, n, n, 1, Hc, t, delta, n, 0, w->product, t);
     for (size_t j = 0; j < t; j++)
-        for (size_t k = 0; k < n; k++) e->M[place[k] + j * cap] += e->product[j + k * t];
-    e->factored = 0;
+        for (size_t k = 0; k < n; k++) w->M[place[k] + j * cap] += w->product[j + k * t];
+    w->factored = 0;
 done:
     return status;
 }
@@ -208,9 +216,9 @@ pg_status touched_change (event_solver *e, const pg_stiffness_change *change)
     PG_ALLOC (dof, size + 1);
     PG_ALLOC (fresh, size + 1);
     count = moved_rows (e, change, row, dof);
-    for (size_t k = 0; k < count; k++) if (!e->at[dof[k]]) fresh[nfresh++] = dof[k];
+    for (size_t k = 0; k < count; k++) if (!e->touched.at[dof[k]]) fresh[nfresh++] = dof[k];
     PG_TRY (touched_grow (e, nfresh, fresh));
-    for (size_t k = 0; k < count; k++) dof[k] = (size_t) e->at[dof[k]] - 1;   /* now the place */
+    for (size_t k = 0; k < count; k++) dof[k] = (size_t) e->touched.at[dof[k]] - 1;   /* now the place */
     if (count) PG_TRY (add_change (e, change, count, row, dof));
 done:
     pg_free (row), pg_free (dof), pg_free (fresh);
@@ -220,67 +228,74 @@ done:
 /* ---- solve --------------------------------------------------------------------------------------------- */
 void touched_displacement (event_solver *e, int c)
 {
-    for (size_t i = 0; i < e->t; i++) e->u[c][i] = e->base[c][e->dof[i]];
-    pg_dense_multiply (0, e->t, 1, e->t, 1, e->H, e->cap, e->x[c], e->cap, 1, e->u[c], e->cap);
+    touched_unknowns *w = &e->touched;
+    for (size_t i = 0; i < w->t; i++) w->u[c][i] = e->base.u[c][w->dof[i]];
+    pg_dense_multiply (0, w->t, 1, w->t, 1, w->H, w->cap, w->x[c], w->cap, 1, w->u[c], w->cap);
 }
 
 /* r = p + q - x - D u_T; its Euclidean norm over the reference force. */
 static double unbalanced (event_solver *e, int c, double *r)
 {
+    touched_unknowns *w = &e->touched;
     double sum = 0;
-    for (size_t i = 0; i < e->t; i++) r[i] = e->p[c][i] + e->q[c][i] - e->x[c][i];
-    pg_dense_multiply (0, e->t, 1, e->t, -1, e->D, e->cap, e->u[c], e->cap, 1, r, e->cap);
-    for (size_t i = 0; i < e->t; i++) sum += r[i] * r[i];
-    return sqrt (sum) / e->scale;
+    for (size_t i = 0; i < w->t; i++) r[i] = w->p[c][i] + w->q[c][i] - w->x[c][i];
+    pg_dense_multiply (0, w->t, 1, w->t, -1, w->D, w->cap, w->u[c], w->cap, 1, r, w->cap);
+    for (size_t i = 0; i < w->t; i++) sum += r[i] * r[i];
+    return sqrt (sum) / e->base.scale;
 }
 
 int touched_substitute (event_solver *e, double *y)
 {
-    if (!e->factored) {
-        for (size_t j = 0; j < e->t; j++)
-            memcpy (e->factor + j * e->t, e->M + j * e->cap, e->t * sizeof *e->M);
-        if (!pg_dense_factor (e->t, e->factor, e->t, e->pivot)) return 0;
-        e->factored = 1;
-        e->rent += (double) e->t * (double) e->t * (double) e->t * 2 / 3 / lu_rate;
+    touched_unknowns *w = &e->touched;
+    if (!w->factored) {
+        for (size_t j = 0; j < w->t; j++)
+            memcpy (w->factor + j * w->t, w->M + j * w->cap, w->t * sizeof *w->M);
+        if (!pg_dense_factor (w->t, w->factor, w->t, w->pivot)) return 0;
+        w->factored = 1;
+        e->rent += (double) w->t * (double) w->t * (double) w->t * 2 / 3 / lu_rate;
     }
-    pg_dense_substitute (e->t, e->factor, e->t, e->pivot, 1, y, e->t);
+    pg_dense_substitute (w->t, w->factor, w->t, w->pivot, 1, y, w->t);
     return 1;
 }
 
 /* One case: until the residual is rounding or no longer falls by half. */
 static int solve_case (event_solver *e, int c)
 {
-    double last = INFINITY, now = unbalanced (e, c, e->r);
+    touched_unknowns *w = &e->touched;
+    double last = INFINITY, now = unbalanced (e, c, w->r);
     for (int k = 0; k < MOST_ROUNDS && now > fine && now < 0.5 * last; k++) {
-        if (!touched_substitute (e, e->r)) return 0;
-        for (size_t i = 0; i < e->t; i++) e->x[c][i] += e->r[i];
+        if (!touched_substitute (e, w->r)) return 0;
+        for (size_t i = 0; i < w->t; i++) w->x[c][i] += w->r[i];
         touched_displacement (e, c);
-        last = now, now = unbalanced (e, c, e->r);
+        last = now, now = unbalanced (e, c, w->r);
     }
-    e->rent += 3 * 8.0 * (double) e->t * (double) e->t / 8e9;
-    e->residual = fmax (e->residual, now);
+    e->rent += 3 * 8.0 * (double) w->t * (double) w->t / 8e9;
+    w->residual = fmax (w->residual, now);
     return isfinite (now) && now <= enough;
 }
 
 int touched_solve (event_solver *e)
 {
-    e->residual = 0;
-    for (int c = 0; c < e->cases && e->t; c++) memcpy (e->old[c], e->x[c], e->t * sizeof *e->x[c]);
+    touched_unknowns *w = &e->touched;
+    w->residual = 0;
+    for (int c = 0; c < e->cases && w->t; c++) memcpy (w->old[c], w->x[c], w->t * sizeof *w->x[c]);
     for (int c = 0; c < e->cases; c++) if (!solve_case (e, c)) return 0;
     return 1;
 }
 
 void touched_undo (event_solver *e)
 {
-    for (int c = 0; c < e->cases && e->t; c++) {
-        memcpy (e->x[c], e->old[c], e->t * sizeof *e->x[c]);
+    touched_unknowns *w = &e->touched;
+    for (int c = 0; c < e->cases && w->t; c++) {
+        memcpy (w->x[c], w->old[c], w->t * sizeof *w->x[c]);
         touched_displacement (e, c);
     }
 }
 
 void touched_balance (event_solver *e, int c)
 {
+    touched_unknowns *w = &e->touched;
     touched_displacement (e, c);
-    for (size_t i = 0; i < e->t; i++) e->q[c][i] = e->x[c][i] - e->p[c][i];
-    pg_dense_multiply (0, e->t, 1, e->t, 1, e->D, e->cap, e->u[c], e->cap, 1, e->q[c], e->cap);
+    for (size_t i = 0; i < w->t; i++) w->q[c][i] = w->x[c][i] - w->p[c][i];
+    pg_dense_multiply (0, w->t, 1, w->t, 1, w->D, w->cap, w->u[c], w->cap, 1, w->q[c], w->cap);
 }

@@ -110,8 +110,8 @@ static pg_status gather (pg_solver *s, double t, double *out)
     const motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     if (m->nprescribed == 0) return PG_OK;
-    PG_TRY (sys->force->impose (sys->self, t, sys->full));
-    for (size_t k = 0; k < m->nprescribed; k++) out[k] = sys->full[m->prescribed[k]];
+    PG_TRY (sys->force->impose (sys->self, t, sys->balance.full));
+    for (size_t k = 0; k < m->nprescribed; k++) out[k] = sys->balance.full[m->prescribed[k]];
 done:
     return status;
 }
@@ -229,9 +229,10 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
                && s->problem->criterion->type;
     b->changes.n = 0;
     if (breaking && force->motion.balance_and_break)
-        PG_TRY (force->motion.balance_and_break (sys->self, t, state->d, sys->residual, reference,
+        PG_TRY (force->motion.balance_and_break (sys->self, t, state->d, sys->balance.residual, reference,
                                                  &b->changes));
-    else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
+    else PG_TRY (force->balance (sys->self, t, state->d, sys->balance.residual,
+                                 reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     s->evaluations++;
     if (!breaking) goto press;
@@ -246,12 +247,13 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
         PG_TRY (break_by_utilisation (s, state, t));
         double any = system_most (sys, (double) b->changes.n);         /* all ranks measure again */
         if (any > 0)
-            PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
+            PG_TRY (force->balance (sys->self, t, state->d, sys->balance.residual,
+                                    reference ? reference : &unused));
     }
     if (own && row_is_shared (s)) PG_TRY (note_break (s));
     else if (b->changes.n && !s->problem->cloud.subdomain) state->events++, s->report.events++;
 press:
-    if (sys->contact) contact_push (sys, state->d, sys->residual, follows (s));
+    if (sys->contact) contact_push (sys, state->d, sys->balance.residual, follows (s));
 done:
     return status;
 }
@@ -397,10 +399,11 @@ pg_status explicit_moved (pg_solver *s, pg_state *state, const pg_moved *moved, 
     PG_TRY (moved->alike->numbers (moved->alike->context, "motion.numbers", 5, alike));
     m->damped = m->damped0 = share[within ? 1 : 0], m->resist = m->resist0 = share[within ? 3 : 2];
     m->most = alike[4];
-    memset (sys->full, 0, sys->ndof * sizeof *sys->full);
+    memset (sys->balance.full, 0, sys->ndof * sizeof *sys->balance.full);
     PG_TRY (moved->unknowns (moved->context, "motion.prescribed", "motion.push", (size_t) within, components,
-                             sys->full));
-    for (size_t k = 0; k < m->nprescribed; k++) m->push[k] = m->push0[k] = sys->full[m->prescribed[k]];
+                             sys->balance.full));
+    for (size_t k = 0; k < m->nprescribed; k++) m->push[k] = m->push0[k] =
+        sys->balance.full[m->prescribed[k]];
     m->fresh = 0, m->bad = 0;
     pg_subdomain_clear_ghosts (part, components, state->v);
     pg_subdomain_clear_ghosts (part, components, state->a);

@@ -114,7 +114,7 @@ static void see_ways (void *context, size_t first, size_t last, int thread)
     const going *g = context;
     const motion *m = motion_of (g->s);
     const struct explicit_contact *c = m->contact;
-    const double *f = g->s->break_loop.system.residual;
+    const double *f = g->s->break_loop.system.balance.residual;
     (void) thread;
     for (size_t i = first; i < last; i++) {
         c->back[i] = g->dt * g->state->v[i], c->inverse[i] = m->inverse[i];
@@ -140,10 +140,10 @@ static pg_status hold_pairs (pg_solver *s, pg_state *state, const pg_changes *br
         size_t i = m->prescribed[k];
         c->back[i] = m->goal[k] - m->before[k], c->ahead[i] = m->next[k] - m->goal[k], c->inverse[i] = 0;
     }
-    if (first) memset (sys->full, 0, sys->ndof * sizeof *sys->full);
+    if (first) memset (sys->balance.full, 0, sys->ndof * sizeof *sys->balance.full);
     PG_TRY (pg_short_range_hold (c->pairs, state, broken, !broken, &ways, way,
-                                 first ? sys->full : sys->residual));
-    for (size_t i = 0; first && i < sys->ndof; i++) state->v[i] += dt * c->inverse[i] * sys->full[i];
+                                 first ? sys->balance.full : sys->balance.residual));
+    for (size_t i = 0; first && i < sys->ndof; i++) state->v[i] += dt * c->inverse[i] * sys->balance.full[i];
 done:
     return status;
 }
@@ -155,7 +155,7 @@ pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int fir
     motion *m = motion_of (s);
     struct explicit_contact *c = m->contact;
     pg_system *sys = &s->break_loop.system;
-    double dt = first ? 0 : s->options.dt, t0 = pg_seconds (), *f = sys->residual,
+    double dt = first ? 0 : s->options.dt, t0 = pg_seconds (), *f = sys->balance.residual,
            way = first ? 0 : c ? c->way * sqrt ((double) s->problem->dim) : 0;
     if (!c) return PG_OK;
     for (size_t k = 0; !first && k < m->nprescribed; k++)

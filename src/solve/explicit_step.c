@@ -153,7 +153,8 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
            dt = s->options.dt;
-    kicking all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, m->only, dt,
+    kicking all = { { state->d, state->v, state->a, sys->balance.residual, m->inverse, sys->mass, m->P,
+                     m->only, dt,
                        c, closing, opening },
                      range,
                      sys->ndof,
@@ -210,10 +211,10 @@ static void take_reactions (pg_solver *s)
     double dt = s->options.dt;
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
-        m->left[k] = sys->residual[i];
+        m->left[k] = sys->balance.residual[i];
         m->push[k] = sys->mass[i] * (((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt))
-                     - sys->residual[i] + (m->P ? m->P[i] : 0);
-        sys->residual[i] = 0;
+                     - sys->balance.residual[i] + (m->P ? m->P[i] : 0);
+        sys->balance.residual[i] = 0;
     }
 }
 
@@ -228,15 +229,15 @@ static pg_status run_tips (pg_solver *s, pg_state *state, double t)
     double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass;
     int any;
     if (!facet_due (b, dt)) return PG_OK;
-    memcpy (sys->full, state->v, sys->ndof * sizeof *sys->full);
+    memcpy (sys->balance.full, state->v, sys->ndof * sizeof *sys->balance.full);
     for (size_t i = 0; i < sys->ndof; i++) {
-        state->a[i] = sys->residual[i] * m->inverse[i] - c * state->v[i];
+        state->a[i] = sys->balance.residual[i] * m->inverse[i] - c * state->v[i];
         state->v[i] += 0.5 * dt * state->a[i];
     }
     PG_TRY (facet_move (b, state, t, state->d, &b->growth->top, &any));
     if (any) state->events++, s->report.events++;
 done:
-    memcpy (state->v, sys->full, sys->ndof * sizeof *sys->full);
+    memcpy (state->v, sys->balance.full, sys->ndof * sizeof *sys->balance.full);
     return status;
 }
 
@@ -249,7 +250,7 @@ static pg_status arrive (pg_solver *s, pg_state *state, long n)
     if (b->growth && n > 0) facet_forward (b, s->options.dt);
     PG_TRY (explicit_force (s, state, t, 1, NULL));
     if (n > 0) PG_TRY (explicit_follow (s, time_at (s, n - 1), t, (double) (n + 1) * s->options.dt));
-    system_add_held (&b->system, b->system.residual);
+    system_add_held (&b->system, b->system.balance.residual);
     PG_TRY (explicit_contact_add (s, state, t, n == 0));
     if (b->growth && n > 0) PG_TRY (run_tips (s, state, t));
     take_reactions (s);
@@ -280,19 +281,20 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     const double *contact = sys->contact ? contact_forces (sys) : NULL;
     int searched = explicit_contact_active (s),
         spare = !s->options.plain && !b->growth && !contact && !searched;
-    for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
+    for (size_t i = 0; !spare && i < sys->ndof; i++) sys->balance.full[i] =
+        inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
-        sys->full[i] = inertia_of (s, state, staggered, 1, i);
-        if (spare) sys->residual[i] = m->left[k];
+        sys->balance.full[i] = inertia_of (s, state, staggered, 1, i);
+        if (spare) sys->balance.residual[i] = m->left[k];
     }
-    for (size_t i = 0; contact && i < sys->ndof; i++) sys->full[i] += contact[i];
-    if (searched) explicit_contact_forces (s, sys->full);
-    system_add_held (sys, sys->full);
+    for (size_t i = 0; contact && i < sys->ndof; i++) sys->balance.full[i] += contact[i];
+    if (searched) explicit_contact_forces (s, sys->balance.full);
+    system_add_held (sys, sys->balance.full);
     s->spared += spare;
-    pg_known known = { .inertia = sys->full, .residual = spare ? sys->residual : NULL };
+    pg_known known = { .inertia = sys->balance.full, .residual = spare ? sys->balance.residual : NULL };
     status = sys->force->work (sys->self, t, state->d, &known, &b->work_balance);
-    for (size_t k = 0; spare && k < m->nprescribed; k++) sys->residual[m->prescribed[k]] = 0;
+    for (size_t k = 0; spare && k < m->nprescribed; k++) sys->balance.residual[m->prescribed[k]] = 0;
     b->work_balance.strain += contact_energy (sys);
     return status;
 }
@@ -304,13 +306,13 @@ static void measure_balance (pg_solver *s, const pg_state *state, int staggered)
     pg_system *sys = &s->break_loop.system;
     const double *contact = sys->contact ? contact_forces (sys) : NULL;
     if (!force_balance_due (sys)) return;
-    for (size_t i = 0; i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
+    for (size_t i = 0; i < sys->ndof; i++) sys->balance.full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++)
-        sys->full[m->prescribed[k]] = inertia_of (s, state, staggered, 1, m->prescribed[k]);
-    for (size_t i = 0; contact && i < sys->ndof; i++) sys->full[i] += contact[i];
-    if (explicit_contact_active (s)) explicit_contact_forces (s, sys->full);
-    system_add_held (sys, sys->full);
-    force_balance (sys, state->d, &s->break_loop.work_balance, sys->full);
+        sys->balance.full[m->prescribed[k]] = inertia_of (s, state, staggered, 1, m->prescribed[k]);
+    for (size_t i = 0; contact && i < sys->ndof; i++) sys->balance.full[i] += contact[i];
+    if (explicit_contact_active (s)) explicit_contact_forces (s, sys->balance.full);
+    system_add_held (sys, sys->balance.full);
+    force_balance (sys, state->d, &s->break_loop.work_balance, sys->balance.full);
 }
 
 /* ... with inertia, which belongs to the reactions. book: the work since the last account is added. */
@@ -350,7 +352,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
     PG_TRY (arrive (s, state, 0));
     m->resist = 0;
     for (size_t i = 0; i < sys->ndof; i++) {
-        double v = state->v[i], a = state->a[i] = sys->residual[i] * m->inverse[i] - c * v;
+        double v = state->v[i], a = state->a[i] = sys->balance.residual[i] * m->inverse[i] - c * v;
         if (staggered) state->v[i] = v + 0.5 * dt * a;
         m->resist += sys->mass[i] * v * (v + 0.5 * dt * a);
         kinetic += 0.5 * sys->mass[i] * (v - 0.5 * dt * a) * (v + 0.5 * dt * a);

@@ -72,7 +72,7 @@ void facet_free (break_loop *b)
     pg_nearest_free (&g->near);
     pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->run);
     facet_hold_free (g);
-    b->system.held = NULL;
+    b->system.balance.held = NULL;
     pg_free (g);
     b->growth = NULL;
 }

@@ -64,7 +64,7 @@ void facet_hold_sum (break_loop *b)
         for (size_t i = 0; i < h->n; i++) g->held[h->unknown[i]] += left (h) * h->force[i];
         closed += (1 - taken_at (h, h->way)) * h->energy;
     }
-    b->system.held = g->nhold ? g->held : NULL;
+    b->system.balance.held = g->nhold ? g->held : NULL;
     b->system.report->energy_fracture = g->needed - closed;
 }
 

@@ -32,7 +32,7 @@ static pg_status both_ways (pg_system *s, const dynamics *dyn, int *can)
     pg_status status = PG_OK;
     *can = 0;
     if (!dyn || system_is_shared (s) || s->problem->dim < 3 || !s->force->spares.elements || s->options->plain
-        || s->indefinite
+        || s->direct.indefinite
         || strcmp (s->options->linear, "auto") != 0)
         return PG_OK;
     PG_TRY (system_can_precondition (s, dyn, can));
@@ -59,52 +59,56 @@ static double factor_solve (const pg_system *s, int broken)
  * there is room for so many touched unknowns only. */
 static double breaking_cost (pg_system *s)
 {
-    pg_ways *w = &s->ways;
+    system_updates *u = &s->updates;
+    pg_ways *w = &s->choice.ways;
     double now = 0;
-    if (s->following && event_solver_has_base (s->following))
-        now = event_solver_spent (s->following) + event_solver_filled (s->following) * factor_again (s);
+    if (u->following && event_solver_has_base (u->following))
+        now = event_solver_spent (u->following) + event_solver_filled (u->following) * factor_again (s);
     double cost = now > w->spent ? now - w->spent : 0;
     w->spent = now;
     w->breaking += cost, w->bonds += w->fresh;
     return cost;
 }
 
-void ways_note_broken (pg_system *s, size_t count) { s->ways.fresh += (double) count; }
+void ways_note_broken (pg_system *s, size_t count) { s->choice.ways.fresh += (double) count; }
 
 /* A new factor: what a bond costs is learnt from the last few. */
 void ways_note_factor (pg_system *s)
 {
-    s->ways.spent = 0, s->ways.breaking /= 2, s->ways.bonds /= 2;
+    s->choice.ways.spent = 0, s->choice.ways.breaking /= 2, s->choice.ways.bonds /= 2;
 }
 
 /* The factor stays behind the system for the way back; its columns, some 16 KB for each unknown, do not. */
 static void to_elements (pg_system *s)
 {
-    if (s->following) event_solver_drop (s->following);
-    event_solver_free (&s->following);
-    s->mode = SYSTEM_NO_FACTOR, s->stale = 1, s->extra_cost = 0;
-    s->ways.meanwhile = 1, s->ways.regret = 0;
+    system_choice *c = &s->choice;
+    if (s->updates.following) event_solver_drop (s->updates.following);
+    event_solver_free (&s->updates.following);
+    c->mode = SYSTEM_NO_FACTOR, s->direct.stale = 1, c->extra_cost = 0;
+    c->ways.meanwhile = 1, c->ways.regret = 0;
 }
 
 static void to_factor (pg_system *s)
 {
+    system_choice *c = &s->choice;
     system_forget_preconditioner (s);
-    s->mode = SYSTEM_KEPT_FACTOR, s->stale = 1, s->remake = 0;
-    s->extra_cost = 1e300;                             /* of the matrix of now, before the next solve */
-    s->ways.meanwhile = 0, s->ways.regret = 0;
+    c->mode = SYSTEM_KEPT_FACTOR, s->direct.stale = 1, s->iterative.remake = 0;
+    c->extra_cost = 1e300;                             /* of the matrix of now, before the next solve */
+    c->ways.meanwhile = 0, c->ways.regret = 0;
 }
 
 /* Before a solve: the other way where enough speaks for it. A factor that would have to be made anew is none
  * to be kept. */
 pg_status ways_choose (pg_system *s, const dynamics *dyn)
 {
+    system_choice *c = &s->choice;
     pg_status status = PG_OK;
-    const pg_ways *w = &s->ways;
+    const pg_ways *w = &c->ways;
     int can;
-    if (s->mode == SYSTEM_NO_FACTOR && w->meanwhile && w->regret > factor_again (s)) to_factor (s);
-    if (s->mode != SYSTEM_KEPT_FACTOR || w->regret == 0) return PG_OK;
+    if (c->mode == SYSTEM_NO_FACTOR && w->meanwhile && w->regret > factor_again (s)) to_factor (s);
+    if (c->mode != SYSTEM_KEPT_FACTOR || w->regret == 0) return PG_OK;
     PG_TRY (both_ways (s, dyn, &can));
-    int due = s->stale && s->extra_cost > system_factor_cost (s);
+    int due = s->direct.stale && c->extra_cost > system_factor_cost (s);
     if (can && w->regret > elements_cost (s, SET_UP) + (due ? 0 : way_back * factor_again (s)))
         to_elements (s);
 done:
@@ -114,14 +118,14 @@ done:
 /* After a solve that took so many iterations. */
 void ways_count (pg_system *s, size_t iterations)
 {
-    pg_ways *w = &s->ways;
+    pg_ways *w = &s->choice.ways;
     double used = (double) iterations, balance = 0;
-    if (s->mode == SYSTEM_KEPT_FACTOR && s->problem->dim > 2 && s->force->spares.elements) {
-        int broken = s->following && event_solver_touched (s->following) > 0;
+    if (s->choice.mode == SYSTEM_KEPT_FACTOR && s->problem->dim > 2 && s->force->spares.elements) {
+        int broken = s->updates.following && event_solver_touched (s->updates.following) > 0;
         balance = breaking_cost (s)
                   + used * ((broken ? 2 : 1) * system_solve_cost (s) + system_apply_cost (s))
                   - elements_cost (s, w->iterations > 0 ? w->iterations : FIRST_GUESS);
-    } else if (s->mode == SYSTEM_NO_FACTOR && w->meanwhile) {
+    } else if (s->choice.mode == SYSTEM_NO_FACTOR && w->meanwhile) {
         double bond = w->bonds > 0 ? w->breaking / w->bonds : 0;
         w->iterations = w->iterations > 0 ? 0.9 * w->iterations + 0.1 * used : used;
         balance = elements_cost (s, used) - factor_solve (s, w->fresh > 0) - bond * w->fresh;

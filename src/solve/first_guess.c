@@ -26,21 +26,23 @@ enum { PAIRS = GUESS_PAIRS };
 /* A pivot is at least this share of its diagonal entry, and this often as large as the rounding of y. */
 static const double least_pivot = 1e-11, above_rounding = 100;
 
-static double *pair_x (const pg_system *s, int k) { return s->guess.x + (size_t) k * s->ndof; }
-static double *pair_y (const pg_system *s, int k) { return s->guess.y + (size_t) k * s->ndof; }
+static double *pair_x (const pg_system *s, int k) { return s->iterative.guess.x + (size_t) k * s->ndof; }
+static double *pair_y (const pg_system *s, int k) { return s->iterative.guess.y + (size_t) k * s->ndof; }
 
 void system_guess_free (pg_system *s)
 {
-    pg_free (s->guess.x), pg_free (s->guess.y);
-    s->guess.x = s->guess.y = NULL;
+    system_iterations *it = &s->iterative;
+    pg_free (it->guess.x), pg_free (it->guess.y);
+    it->guess.x = it->guess.y = NULL;
 }
 
 /* Room for the pairs: one more than are used, for the pair in the making. */
 pg_status system_guess_ready (pg_system *s)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
-    if (!s->guess.x) PG_ALLOC (s->guess.x, (PAIRS + 1) * s->ndof);
-    if (!s->guess.y) PG_ALLOC (s->guess.y, (PAIRS + 1) * s->ndof);
+    if (!it->guess.x) PG_ALLOC (it->guess.x, (PAIRS + 1) * s->ndof);
+    if (!it->guess.y) PG_ALLOC (it->guess.y, (PAIRS + 1) * s->ndof);
 done:
     return status;
 }
@@ -89,7 +91,7 @@ static double rounding_of (const pg_system *s, const dynamics *dyn, const double
 {
     double sum = 0, least = INFINITY, size[PAIRS + 1] = { 0 };
     for (size_t i = 0; i < s->ndof; i++) {
-        double part = (dyn->k * s->diagonal0[i] + dyn->m * s->mass[i]) * d[i];
+        double part = (dyn->k * s->direct.diagonal0[i] + dyn->m * s->mass[i]) * d[i];
         if (pg_owns (s->problem->cloud.subdomain, i / (size_t) s->components)) sum += part * part;
     }
     size[0] = sum;
@@ -105,17 +107,17 @@ static double rounding_of (const pg_system *s, const dynamics *dyn, const double
 pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
 {
     pg_status status = PG_OK;
-    pg_guess *g = &s->guess;
+    pg_guess *g = &s->iterative.guess;
     double G[PAIRS][PAIRS] = { { 0 } }, b[PAIRS] = { 0 }, c[PAIRS];
     int at[PAIRS], n, most = 0;
     PG_TRY (system_guess_ready (s));
     if (!g->fresh) g->n = 0, g->fresh = 1;
     *used = n = g->n;
     double *x = pair_x (s, g->next), *y = pair_y (s, g->next);
-    for (size_t i = 0; i < s->ndof; i++) x[i] = 0, y[i] = s->residual[i];
+    for (size_t i = 0; i < s->ndof; i++) x[i] = 0, y[i] = s->balance.residual[i];
     for (int k = 1; k <= n; k++) at[n - k] = (g->next - k + PAIRS + 1) % (PAIRS + 1);
     for (int i = 0; i < n; i++) {                      /* of ghosts residuals, and so all y, are 0 */
-        b[i] = pg_dot (s->ndof, pair_x (s, at[i]), s->residual);
+        b[i] = pg_dot (s->ndof, pair_x (s, at[i]), s->balance.residual);
         for (int j = 0; j <= i; j++)
             G[i][j] = G[j][i] = pg_dot (s->ndof, pair_x (s, at[i]), pair_y (s, at[j]));
     }
@@ -136,26 +138,26 @@ done:
 /* Takes the guess back, and forgets the pairs that it was made of. */
 void system_guess_undo (pg_system *s, double *d)
 {
-    double *x = pair_x (s, s->guess.next), *y = pair_y (s, s->guess.next);
-    for (size_t i = 0; i < s->ndof; i++) d[i] -= x[i], x[i] = 0, s->residual[i] = y[i];
-    s->guess.n = 0;
+    double *x = pair_x (s, s->iterative.guess.next), *y = pair_y (s, s->iterative.guess.next);
+    for (size_t i = 0; i < s->ndof; i++) d[i] -= x[i], x[i] = 0, s->balance.residual[i] = y[i];
+    s->iterative.guess.n = 0;
 }
 
 /* The correction of this step goes on. It is summed up by itself: as the difference of two displacements it
  * would have lost the digits in which corrections differ from one another. */
 void system_guess_add (pg_system *s, const double *step)
 {
-    double *x = pair_x (s, s->guess.next);
+    double *x = pair_x (s, s->iterative.guess.next);
     for (size_t i = 0; i < s->ndof; i++) x[i] += step[i];
 }
 
 /* The pair of this step is complete, if the residual of its state is known. */
 void system_guess_learn (pg_system *s)
 {
-    pg_guess *g = &s->guess;
+    pg_guess *g = &s->iterative.guess;
     double *y = pair_y (s, g->next);
-    if (!s->known) return;
-    for (size_t i = 0; i < s->ndof; i++) y[i] -= s->residual[i];
+    if (!s->balance.known) return;
+    for (size_t i = 0; i < s->ndof; i++) y[i] -= s->balance.residual[i];
     g->next = (g->next + 1) % (PAIRS + 1);
     g->n = g->n < PAIRS ? g->n + 1 : PAIRS;
 }
@@ -164,13 +166,13 @@ void system_guess_learn (pg_system *s)
 pg_status system_guess_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    pg_guess *g = &s->guess;
-    long count[4] = { g->n, g->next, g->fresh, s->unmeasured };
+    pg_guess *g = &s->iterative.guess;
+    long count[4] = { g->n, g->next, g->fresh, s->balance.unmeasured };
     PG_TRY (k->counts (k->context, "system.guess", 4, count));
     PG_KEEP_BOUND (k, "the pairs of a first guess", count[0], 0, PAIRS);
     PG_KEEP_BOUND (k, "the next pair of a first guess", count[1], 0, PAIRS);
     g->n = (int) count[0], g->next = (int) count[1], g->fresh = count[2] != 0;
-    s->unmeasured = count[3];
+    s->balance.unmeasured = count[3];
     if (g->n == 0) goto done;
     PG_TRY (system_guess_ready (s));
     PG_TRY (k->numbers (k->context, "system.guess.x", (PAIRS + 1) * s->ndof, g->x));

@@ -90,7 +90,7 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     double size = all.size + rounding (s, d) / BALANCED;
     if (!(size > 0)) return;
     double missed = fmax (pg_size (3, all.force), pg_size (3, all.moment) / all.length);
-    if (missed > BALANCED * size) size = fmax (size, fmax (s->reference, s->borne));
+    if (missed > BALANCED * size) size = fmax (size, fmax (s->balance.reference, s->balance.borne));
     /* arms of forces that turn with finite displacements are not those of the places at rest */
     pg_statistics *r = s->report;
     r->balances++;

@@ -97,8 +97,8 @@ static void set_scheme (const pg_solver *s, instability *u)
 static void enter (pg_solver *s, instability *u, int phase)
 {
     pg_system *sys = &s->break_loop.system;
-    if (u->phase == PHASE_REST) u->mode[0] = sys->mode;
-    if (u->phase == PHASE_RUNNING) u->mode[1] = sys->mode;
+    if (u->phase == PHASE_REST) u->mode[0] = sys->choice.mode;
+    if (u->phase == PHASE_RUNNING) u->mode[1] = sys->choice.mode;
     u->phase = phase;
     set_scheme (s, u);
     int mode = u->mode[phase == PHASE_RUNNING];

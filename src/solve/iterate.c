@@ -20,10 +20,10 @@ static void apply_combined (void *context, const double *x, double *y)
 {
     combined *c = context;
     pg_system *s = c->s;
-    double *z = c->T ? s->scratch : y;
+    double *z = c->T ? s->balance.scratch : y;
     c->image = z;
-    if (c->T) pg_sparse_multiply (c->T, x, s->full);
-    const double *full = c->T ? s->full : x;
+    if (c->T) pg_sparse_multiply (c->T, x, s->balance.full);
+    const double *full = c->T ? s->balance.full : x;
     system_multiply (s, full, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass (s, c->dyn->m, full, z);
@@ -38,9 +38,9 @@ static void diagonal_combined (void *context, double *d)
     const combined *c = context;
     pg_system *s = c->s;
     const pg_operator *op = s->force->operator_ (s->self);
-    double *z = c->T ? s->scratch : d;
-    if (c->dyn && s->mode == SYSTEM_DIAGONAL && !s->options->plain)
-        memcpy (z, s->diagonal0, s->ndof * sizeof *z);
+    double *z = c->T ? s->balance.scratch : d;
+    if (c->dyn && s->choice.mode == SYSTEM_DIAGONAL && !s->options->plain)
+        memcpy (z, s->direct.diagonal0, s->ndof * sizeof *z);
     else op->diagonal (op->context, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass_diagonal (s, c->dyn->m, z);
@@ -55,12 +55,12 @@ static void diagonal_combined (void *context, double *d)
 static void keep_earlier (combined *c)
 {
     pg_system *s = c->s;
-    if (s->rough.found) return;
-    if (c->T) pg_sparse_multiply_transposed (c->T, s->residual, s->scratch);
-    double size = system_norm (s, c->T ? s->scratch : s->residual, s->nred);
+    if (s->iterative.rough.found) return;
+    if (c->T) pg_sparse_multiply_transposed (c->T, s->balance.residual, s->balance.scratch);
+    double size = system_norm (s, c->T ? s->balance.scratch : s->balance.residual, s->nred);
     if (size > c->keep) return;
-    memcpy (s->rough.earlier, s->delta, s->nred * sizeof *s->delta);
-    s->rough.found = size > c->keep / ROUGHER ? 1 : -1;            /* the last one is no earlier one */
+    memcpy (s->iterative.rough.earlier, s->balance.delta, s->nred * sizeof *s->balance.delta);
+    s->iterative.rough.found = size > c->keep / ROUGHER ? 1 : -1;  /* the last one is no earlier one */
 }
 
 /* R of all rows, those of prescribed unknowns too, goes on with the iterations. */
@@ -68,10 +68,11 @@ static pg_status carry_residual (void *context, double alpha, double residual, i
 {
     combined *c = context;
     pg_system *s = c->s;
-    s->fell = residual;
-    for (size_t i = 0; i < s->ndof; i++) s->residual[i] -= alpha * c->image[i];
+    s->iterative.fell = residual;
+    for (size_t i = 0; i < s->ndof; i++) s->balance.residual[i] -= alpha * c->image[i];
     if (c->keep > 0) keep_earlier (c);
-    return s->rough.look ? s->rough.look (s->rough.looking, residual, stop) : PG_OK;
+    return s->iterative.rough.look ? s->iterative.rough.look (s->iterative.rough.looking, residual, stop)
+           : PG_OK;
 }
 
 /* The factor of an earlier K as preconditioner (kept_factor.c). */
@@ -86,17 +87,17 @@ static pg_status by_elements (void *context, const double *r, double *z)
 {
     pg_status status = PG_OK;
     pg_system *s = context;
-    pg_preconditioner P = pg_element_preconditioner_of (s->elements);
-    if (!s->own_row) {
+    pg_preconditioner P = pg_element_preconditioner_of (s->iterative.elements);
+    if (!s->iterative.own_row) {
         PG_TRY (P.solve (P.context, r, z));
         system_clear_rest (s, z);
         goto done;
     }
-    memset (s->full, 0, s->ndof * sizeof *s->full);
-    for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
-    PG_TRY (P.solve (P.context, s->full, s->scratch));
-    system_clear_rest (s, s->scratch);
-    for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
+    memset (s->balance.full, 0, s->ndof * sizeof *s->balance.full);
+    for (size_t j = 0; j < s->nred; j++) s->balance.full[s->iterative.own_row[j]] = r[j];
+    PG_TRY (P.solve (P.context, s->balance.full, s->balance.scratch));
+    system_clear_rest (s, s->balance.scratch);
+    for (size_t j = 0; j < s->nred; j++) z[j] = s->balance.scratch[s->iterative.own_row[j]];
 done:
     return status;
 }
@@ -111,7 +112,8 @@ static pg_status by_ranks (void *context, const double *r, double *z)
  * than a wave gets in a few steps. */
 static int is_local (const pg_system *s, const dynamics *dyn)
 {
-    return dyn && s->mode == SYSTEM_DIAGONAL && !s->begins && !s->options->plain && !s->problem->sums;
+    return dyn && s->choice.mode == SYSTEM_DIAGONAL && !s->choice.begins && !s->options->plain
+           && !s->problem->sums;
 }
 
 /* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. In motion `residual` becomes
@@ -119,6 +121,8 @@ static int is_local (const pg_system *s, const dynamics *dyn)
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
                           size_t *used)
 {
+    system_balance *b = &s->balance;
+    system_iterations *it = &s->iterative;
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL, 0 };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
     int carries = dyn && !s->options->plain;
@@ -127,14 +131,14 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
                             s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
-    memset (s->delta, 0, s->ndof * sizeof *s->delta);
-    s->fell = tolerance, s->rough.nview = 0;
-    if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
+    memset (b->delta, 0, s->ndof * sizeof *b->delta);
+    it->fell = tolerance, it->rough.nview = 0;
+    if (carries && it->rough.goal > 0) c.keep = ROUGHER * it->rough.goal * b->unbalanced;
     pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn),
-                          system_is_shared (s), &s->cg_room };
-    pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
-                                                       s->delta, tolerance, limit, used, &watch);
-    s->carried = carries && status == PG_OK;
+                          system_is_shared (s), &it->cg_room };
+    pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, b->reduced,
+                                                       b->delta, tolerance, limit, used, &watch);
+    b->carried = carries && status == PG_OK;
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     if (by != BY_FACTOR) strcpy (s->report->solver, "cg");

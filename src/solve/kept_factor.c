@@ -15,10 +15,11 @@
 /* Follows what breaks from here on, where the force can tell. The factor has just been made. */
 pg_status system_follow (pg_system *s, const dynamics *dyn)
 {
+    system_updates *u = &s->updates;
     pg_status status = PG_OK;
     if (!dyn || !s->problem->criterion->type) return PG_OK;
-    if (!s->following) PG_TRY (event_solver_create (&s->following, s, 0, NULL));
-    if (s->following) PG_TRY (event_solver_follow (s->following, dyn->k, dyn->m));
+    if (!u->following) PG_TRY (event_solver_create (&u->following, s, 0, NULL));
+    if (u->following) PG_TRY (event_solver_follow (u->following, dyn->k, dyn->m));
     ways_note_factor (s);
 done:
     return status;
@@ -28,12 +29,13 @@ done:
  * makes one; so it does where a base that has served can follow no further. */
 pg_status system_note_change (pg_system *s)
 {
+    system_updates *u = &s->updates;
     pg_status status = PG_OK;
     event_outcome outcome;
-    if (!s->following || !event_solver_has_base (s->following)) return PG_OK;
-    int served = event_solver_touched (s->following) > 0;
-    PG_TRY (event_solver_note (s->following, &outcome));
-    if (outcome == EVENT_DUE || (outcome == EVENT_LOST && served)) s->extra_cost = 1e300;
+    if (!u->following || !event_solver_has_base (u->following)) return PG_OK;
+    int served = event_solver_touched (u->following) > 0;
+    PG_TRY (event_solver_note (u->following, &outcome));
+    if (outcome == EVENT_DUE || (outcome == EVENT_LOST && served)) s->choice.extra_cost = 1e300;
 done:
     return status;
 }
@@ -41,9 +43,9 @@ done:
 /* z = the inverse of the factored matrix, or of the one of now, times r. */
 pg_status system_apply_factor (pg_system *s, const double *r, double *z)
 {
-    if (s->following && event_solver_has_base (s->following))
-        return event_solver_correct (s->following, r, z);
-    return s->linear->solve (s->factor, 1, r, z);
+    if (s->updates.following && event_solver_has_base (s->updates.following))
+        return event_solver_correct (s->updates.following, r, z);
+    return s->direct.linear->solve (s->direct.factor, 1, r, z);
 }
 
 /* The factor of an earlier K preconditions conjugate gradients. It is renewed when the iterations beyond
@@ -51,19 +53,20 @@ pg_status system_apply_factor (pg_system *s, const double *r, double *z)
  * possible cost); where iterations fail, at once. */
 pg_status system_solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance)
 {
+    system_choice *c = &s->choice;
     pg_status status = PG_OK;
     size_t used = 0;
-    if (s->stale && s->extra_cost > system_factor_cost (s)) {
+    if (s->direct.stale && c->extra_cost > system_factor_cost (s)) {
         PG_TRY (system_factorize (s, dyn));
         PG_TRY (system_follow (s, dyn));
-        s->extra_cost = 0;
+        c->extra_cost = 0;
     }
-    s->spared += s->stale;
+    c->spared += s->direct.stale;
     pg_status now = system_iterate (s, dyn, BY_FACTOR, tolerance, 200, &used);
-    if (used > 2) s->extra_cost += (double) (used - 2) * (system_solve_cost (s) + system_apply_cost (s));
+    if (used > 2) c->extra_cost += (double) (used - 2) * (system_solve_cost (s) + system_apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
-    s->stale = 1, s->extra_cost = 0;
+    s->direct.stale = 1, c->extra_cost = 0;
     status = system_solve_by_factor (s, dyn);
 done:
     return status;

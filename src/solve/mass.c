@@ -63,5 +63,5 @@ void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse 
 
 void system_add_held (const pg_system *s, double *residual)
 {
-    for (size_t i = 0; s->held && i < s->ndof; i++) residual[i] += s->held[i];
+    for (size_t i = 0; s->balance.held && i < s->ndof; i++) residual[i] += s->balance.held[i];
 }

@@ -72,17 +72,18 @@ done:
  * points of all bonds that are dead by now may be loose. */
 static pg_status take_system (pg_system *sys, const pg_state *state, const pg_moved *m)
 {
+    system_factor *f = &sys->direct;
     pg_status status = PG_OK;
     double number[3];
     PG_TRY (m->alike->numbers (m->alike->context, "system.numbers", 3, number));
-    PG_TRY (m->alike->numbers (m->alike->context, "system.borne", 1, &sys->borne));
-    if (sys->diagonal0) {
-        PG_TRY (m->points (m->context, "system.diagonal", (size_t) sys->components, sys->diagonal0));
-        sys->mean_diagonal = number[0];
+    PG_TRY (m->alike->numbers (m->alike->context, "system.borne", 1, &sys->balance.borne));
+    if (f->diagonal0) {
+        PG_TRY (m->points (m->context, "system.diagonal", (size_t) sys->components, f->diagonal0));
+        f->mean_diagonal = number[0];
     }
-    sys->marked = 0;
+    f->marked = 0;
     PG_TRY (system_refresh (sys, state, NULL));
-    system_switch (sys, sys->mode);
+    system_switch (sys, sys->choice.mode);
 done:
     return status;
 }

@@ -102,10 +102,10 @@ static void apply_mass (void *context, const double *x, double *y)
 {
     const pg_system *sys = context;
     const pg_sparse *T = elimination (sys);
-    double *z = T ? sys->scratch : y;
-    if (T) pg_sparse_multiply (T, x, sys->full);
+    double *z = T ? sys->balance.scratch : y;
+    if (T) pg_sparse_multiply (T, x, sys->balance.full);
     memset (z, 0, sys->ndof * sizeof *z);
-    system_add_mass (sys, 1, T ? sys->full : x, z);
+    system_add_mass (sys, 1, T ? sys->balance.full : x, z);
     system_clear_ghosts (sys, z);
     if (T) pg_sparse_multiply_transposed (T, z, y);
 }
@@ -115,7 +115,7 @@ static void diagonal_mass (void *context, double *d)
 {
     const pg_system *sys = context;
     const pg_sparse *T = elimination (sys);
-    double *z = T ? sys->scratch : d;
+    double *z = T ? sys->balance.scratch : d;
     memset (z, 0, sys->ndof * sizeof *z);
     system_add_mass_diagonal (sys, 1, z);
     for (size_t j = 0; T && j < T->ncol; j++) {
@@ -128,21 +128,22 @@ static void diagonal_mass (void *context, double *d)
  * conjugate gradients, on all ranks where one of them has prescribed nodes. */
 static pg_status accelerate (pg_system *sys, double *a)
 {
+    system_balance *b = &sys->balance;
     pg_status status = PG_OK;
     const pg_sparse *T = elimination (sys);
     int divides = !(system_most (sys, T || sys->M) > 0);
-    for (size_t i = 0; divides && i < sys->ndof; i++) a[i] += sys->residual[i] / sys->mass[i];
+    for (size_t i = 0; divides && i < sys->ndof; i++) a[i] += b->residual[i] / sys->mass[i];
     if (divides) return PG_OK;
     pg_operator op = { sys->nred, sys, apply_mass, diagonal_mass };
     size_t used = 0;
-    if (T) pg_sparse_multiply_transposed (T, sys->residual, sys->reduced);
-    else memcpy (sys->reduced, sys->residual, sys->ndof * sizeof *sys->reduced);
-    memset (sys->delta, 0, sys->ndof * sizeof *sys->delta);
+    if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
+    else memcpy (b->reduced, b->residual, sys->ndof * sizeof *b->reduced);
+    memset (b->delta, 0, sys->ndof * sizeof *b->delta);
     pg_cg_watch watch = { .shared = system_is_shared (sys) };
-    PG_TRY (pg_conjugate_gradients_watched (&op, NULL, sys->reduced, sys->delta, 1e-13, 20 * sys->nred + 1000,
+    PG_TRY (pg_conjugate_gradients_watched (&op, NULL, b->reduced, b->delta, 1e-13, 20 * sys->nred + 1000,
                                             &used, &watch));
-    if (T) pg_sparse_multiply (T, sys->delta, sys->full);
-    const double *gain = T ? sys->full : sys->delta;
+    if (T) pg_sparse_multiply (T, b->delta, b->full);
+    const double *gain = T ? b->full : b->delta;
     for (size_t i = 0; i < sys->ndof; i++) a[i] += gain[i];
 done:
     return status;
@@ -156,10 +157,10 @@ pg_status newmark_without_contact (newmark *n, double *a)
     const double *contact = contact_forces (sys);
     double *kept = n->work4;
     if (!contact) return PG_OK;
-    memcpy (kept, sys->residual, sys->ndof * sizeof *kept);
-    for (size_t i = 0; i < sys->ndof; i++) sys->residual[i] = -contact[i];
+    memcpy (kept, sys->balance.residual, sys->ndof * sizeof *kept);
+    for (size_t i = 0; i < sys->ndof; i++) sys->balance.residual[i] = -contact[i];
     status = accelerate (sys, a);
-    memcpy (sys->residual, kept, sys->ndof * sizeof *kept);
+    memcpy (sys->balance.residual, kept, sys->ndof * sizeof *kept);
     return status;
 }
 
@@ -171,8 +172,8 @@ pg_status newmark_rebound (newmark *n, const pg_state *from, double *v)
     pg_system *sys = n->system;
     double *kept = n->work4, *dv = kept + sys->ndof, lost = 0, a = 0, b = 0;
     if (!contact_forces (sys)) return PG_OK;
-    memcpy (kept, sys->residual, sys->ndof * sizeof *kept);
-    PG_TRY (contact_impacts (sys, from->d, sys->residual, &lost));
+    memcpy (kept, sys->balance.residual, sys->ndof * sizeof *kept);
+    PG_TRY (contact_impacts (sys, from->d, sys->balance.residual, &lost));
     memset (dv, 0, sys->ndof * sizeof *dv);
     if (lost > 0) PG_TRY (accelerate (sys, dv));
     for (size_t i = 0; lost > 0 && i < sys->ndof; i++)
@@ -183,7 +184,7 @@ pg_status newmark_rebound (newmark *n, const pg_state *from, double *v)
     for (size_t i = 0; a > 0 && i < sys->ndof; i++) v[i] += s * dv[i];
     contact_rebound (sys, s / n->dt);
 done:
-    memcpy (sys->residual, kept, sys->ndof * sizeof *kept);
+    memcpy (sys->balance.residual, kept, sys->ndof * sizeof *kept);
     return status;
 }
 
@@ -194,9 +195,10 @@ pg_status newmark_account (newmark *n, break_loop *b, const pg_state *state, dou
     pg_system *sys = n->system;
     sys->report->energy_kinetic = newmark_kinetic (n, state->v);
     if (!sys->force->work) goto done;
-    memset (sys->full, 0, sys->ndof * sizeof *sys->full);
-    newmark_resist (n, state->v, state->a, sys->full);
-    PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = sys->full }, &b->work_balance));
+    memset (sys->balance.full, 0, sys->ndof * sizeof *sys->balance.full);
+    newmark_resist (n, state->v, state->a, sys->balance.full);
+    PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = sys->balance.full },
+                              &b->work_balance));
     PG_TRY (break_loop_book (b, 1));
     sys->report->energy_strain = b->work_balance.strain;
 done:
@@ -241,9 +243,9 @@ pg_status newmark_launch (newmark *n, pg_state *state, double t)
     }
     PG_TRY (system_exchange (sys, state->d));
     PG_TRY (system_exchange (sys, state->v));
-    PG_TRY (sys->force->balance (sys->self, t, state->d, sys->residual, &reference));
-    newmark_resist (n, state->v, state->a, sys->residual);
-    system_clear_ghosts (sys, sys->residual);
+    PG_TRY (sys->force->balance (sys->self, t, state->d, sys->balance.residual, &reference));
+    newmark_resist (n, state->v, state->a, sys->balance.residual);
+    system_clear_ghosts (sys, sys->balance.residual);
     PG_TRY (accelerate (sys, state->a));
     PG_TRY (system_exchange (sys, state->a));
 done:

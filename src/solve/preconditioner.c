@@ -17,13 +17,14 @@ enum { MOST_ON_GRID = 1000 };
 
 int system_has_preconditioner (const pg_system *s)
 {
-    return s->multilevel || s->elements || s->amg || s->whole_factor;
+    const system_iterations *it = &s->iterative;
+    return it->multilevel || it->elements || it->amg || it->whole_factor;
 }
 
 void system_forget_preconditioner (pg_system *s)
 {
-    pg_multilevel_free (&s->multilevel);
-    pg_element_preconditioner_free (&s->elements);
+    pg_multilevel_free (&s->iterative.multilevel);
+    pg_element_preconditioner_free (&s->iterative.elements);
     system_free_shared (s);
 }
 
@@ -32,11 +33,11 @@ void system_forget_preconditioner (pg_system *s)
 static int selects (pg_system *s, const pg_sparse *T)
 {
     int yes = 1;
-    if (T) memset (s->fixed, 1, s->ndof);
+    if (T) memset (s->iterative.fixed, 1, s->ndof);
     for (size_t j = 0; T && j < T->ncol && yes; j++) {
         long p = T->start[j];
-        yes = T->start[j + 1] == p + 1 && T->value[p] == 1 && s->fixed[T->row[p]];
-        if (yes) s->fixed[T->row[p]] = 0;
+        yes = T->start[j + 1] == p + 1 && T->value[p] == 1 && s->iterative.fixed[T->row[p]];
+        if (yes) s->iterative.fixed[T->row[p]] = 0;
     }
     return yes;
 }
@@ -45,22 +46,23 @@ static int selects (pg_system *s, const pg_sparse *T)
  * 0: a column has none, or several. */
 static pg_status find_own_rows (pg_system *s, const pg_sparse *T, int *found)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     unsigned char *columns = NULL;
     *found = 1;
-    if (!T || s->own_row) return PG_OK;
-    PG_ALLOC (s->own_row, T->ncol);
+    if (!T || it->own_row) return PG_OK;
+    PG_ALLOC (it->own_row, T->ncol);
     PG_ALLOC (columns, s->ndof);
     for (long p = 0; p < T->start[T->ncol]; p++) if (columns[T->row[p]] < 2) columns[T->row[p]]++;
-    memset (s->fixed, 1, s->ndof);
+    memset (it->fixed, 1, s->ndof);
     for (size_t j = 0; j < T->ncol && *found; j++) {
         int count = 0;
         for (long p = T->start[j]; p < T->start[j + 1]; p++)
-            if (columns[T->row[p]] == 1 && T->value[p] == 1) s->own_row[j] = (int) T->row[p], count++;
+            if (columns[T->row[p]] == 1 && T->value[p] == 1) it->own_row[j] = (int) T->row[p], count++;
         *found = count == 1;
-        if (count == 1) s->fixed[s->own_row[j]] = 0;
+        if (count == 1) it->fixed[it->own_row[j]] = 0;
     }
-    if (!*found) pg_free (s->own_row), s->own_row = NULL;
+    if (!*found) pg_free (it->own_row), it->own_row = NULL;
 done:
     pg_free (columns);
     return status;
@@ -80,19 +82,20 @@ static int has_what_it_takes (const pg_system *s, const dynamics *dyn)
 /* *can: has the system what a preconditioner takes, and do its supports leave unknowns for it? */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     *can = 0;
     if (!has_what_it_takes (s, dyn)) return PG_OK;
-    if (s->fixed) {
-        *can = s->precondition;
+    if (it->fixed) {
+        *can = it->precondition;
         return PG_OK;
     }
-    PG_ALLOC (s->fixed, s->ndof);
+    PG_ALLOC (it->fixed, s->ndof);
     if (s->force->spares.elements || system_is_shared (s)) PG_TRY (find_own_rows (s, T, can));
     else *can = selects (s, T);
     if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* on all ranks */
-    s->precondition = *can;
+    it->precondition = *can;
 done:
     return status;
 }
@@ -101,18 +104,19 @@ done:
 /* The number of unknowns of each level, for the report. */
 static void tell (pg_system *s)
 {
+    system_iterations *it = &s->iterative;
     pg_multilevel_info info;
     char *text = s->report->preconditioner;
     size_t workspace = sizeof s->report->preconditioner, at = 0;
-    if (s->elements && system_is_shared (s)) {
-        pg_element_preconditioner_describe (s->elements, text, workspace);
+    if (it->elements && system_is_shared (s)) {
+        pg_element_preconditioner_describe (it->elements, text, workspace);
         return;
     }
-    pg_multilevel_describe (s->elements ? pg_element_preconditioner_levels (s->elements) : s->multilevel,
+    pg_multilevel_describe (it->elements ? pg_element_preconditioner_levels (it->elements) : it->multilevel,
                             &info);
     const char *kind = "";
-    if (s->elements)
-        kind = pg_element_preconditioner_on_grid (s->elements) ? "finite elements on a coarse grid, "
+    if (it->elements)
+        kind = pg_element_preconditioner_on_grid (it->elements) ? "finite elements on a coarse grid, "
                                                                : "finite elements, ";
     at = (size_t) snprintf (text, workspace, "%smultilevel, %d levels of", kind, info.levels);
     for (int k = 0; k < info.levels && k < 8 && at < workspace; k++)
@@ -129,10 +133,10 @@ static pg_status make_by_rows (pg_system *s)
                                       .threads = s->problem->threads,
                                       .n = s->problem->cloud.n,
                                       .x = s->problem->cloud.x,
-                                      .fixed = s->fixed,
+        .fixed = s->iterative.fixed,
                                       .A = s->force->operator_ (s->self) };
     PG_TRY (s->force->spares.couplings (s->self, &setting.rows));
-    PG_TRY (pg_multilevel_create (&s->multilevel, &setting));
+    PG_TRY (pg_multilevel_create (&s->iterative.multilevel, &setting));
 done:
     return status;
 }
@@ -160,7 +164,7 @@ static pg_status make_by_elements (pg_system *s, double k, double m)
     pg_status status = PG_OK;
     pg_elements elements = { 0 };
     pg_element_setting setting = { .dim = s->problem->dim, .x = s->problem->cloud.x,
-                                   .fixed = s->own_row ? s->fixed : NULL,
+        .fixed = s->iterative.own_row ? s->iterative.fixed : NULL,
                                    .subdomain = s->problem->cloud.subdomain };
     PG_TRY (s->force->spares.elements (s->self, &elements));
     pg_block_matrix *Q = &elements.Q;
@@ -168,7 +172,7 @@ static pg_status make_by_elements (pg_system *s, double k, double m)
     for (size_t q = 0; k != 1 && q < entries; q++) Q->value[q] = (float) (k * Q->value[q]);
     if (elements.hats.count) PG_TRY (weigh_coarse (s, &elements, k, m));
     else for (size_t i = 0; m != 0 && i < s->ndof; i++) pg_block_add_diagonal (Q, i, m * s->mass[i]);
-    PG_TRY (pg_element_preconditioner_create (&s->elements, &elements, &setting));
+    PG_TRY (pg_element_preconditioner_create (&s->iterative.elements, &elements, &setting));
 done:
     pg_elements_clear (&elements);
     return status;
@@ -183,13 +187,13 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     system_forget_preconditioner (s);
     /* finds what constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
-    s->made[0] = k, s->made[1] = m;
+    s->iterative.made[0] = k, s->iterative.made[1] = m;
     PG_TRY (system_make_shared_factor (s, &whole));
     if (!whole)
         PG_TRY (s->force->spares.elements ? make_by_elements (s, k, m)
                 : system_is_shared (s) ? system_make_shared (s, k, m) : make_by_rows (s));
     s->report->preconditioners++;
-    s->extra_cost = s->pace = 0;
+    s->choice.extra_cost = s->iterative.pace = 0;
     if (!system_by_ranks (s)) tell (s);
     PG_TRY (system_remember_alive (s));
 done:
@@ -203,10 +207,11 @@ done:
  * What these change of the solution the residual, which has none of them, takes out again. */
 static pg_status hold_hanging (pg_system *s)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
-    if (!s->hanging) PG_ALLOC (s->hanging, s->problem->cloud.n);
-    memset (s->hanging, 0, s->problem->cloud.n);
-    if (s->alive) system_mark_touched (s, s->alive, s->hanging);
+    if (!it->hanging) PG_ALLOC (it->hanging, s->problem->cloud.n);
+    memset (it->hanging, 0, s->problem->cloud.n);
+    if (s->direct.alive) system_mark_touched (s, s->direct.alive, it->hanging);
 done:
     return status;
 }
@@ -215,8 +220,8 @@ done:
 static void add_hanging (const pg_system *s, const double *x, double *y)
 {
     size_t c = (size_t) s->components;
-    double spring = WEAK_SPRING * s->mean_diagonal;
-    for (size_t j = 0; j < s->ndof; j++) if (s->hanging[j / c]) y[j] += spring * x[j];
+    double spring = WEAK_SPRING * s->direct.mean_diagonal;
+    for (size_t j = 0; j < s->ndof; j++) if (s->iterative.hanging[j / c]) y[j] += spring * x[j];
 }
 
 /* K x with prescribed unknowns left out, which stay zero, and springs at nodes that lack a bond. */
@@ -225,21 +230,21 @@ static void apply_free (void *context, const double *x, double *y)
     const pg_system *s = context;
     system_multiply (s, x, y);
     add_hanging (s, x, y);
-    for (size_t i = 0; i < s->ndof; i++) if (s->fixed[i]) y[i] = 0;
+    for (size_t i = 0; i < s->ndof; i++) if (s->iterative.fixed[i]) y[i] = 0;
 }
 
 /* By the rows of K: all unknowns, of which the prescribed ones stay zero. */
 static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
 {
     pg_operator op = { s->ndof, s, apply_free, NULL };
-    pg_preconditioner P = pg_multilevel_preconditioner (s->multilevel);
+    pg_preconditioner P = pg_multilevel_preconditioner (s->iterative.multilevel);
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    double t0 = pg_seconds (), *b = s->scratch, *x = s->full;
-    for (size_t i = 0; i < s->ndof; i++) b[i] = s->fixed[i] ? 0 : s->residual[i], x[i] = 0;
+    double t0 = pg_seconds (), *b = s->balance.scratch, *x = s->balance.full;
+    for (size_t i = 0; i < s->ndof; i++) b[i] = s->iterative.fixed[i] ? 0 : s->balance.residual[i], x[i] = 0;
     pg_status status = hold_hanging (s);
     if (status == PG_OK)
         status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
-    for (size_t j = 0; j < s->nred; j++) s->delta[j] = s->full[T ? (size_t) T->row[j] : j];
+    for (size_t j = 0; j < s->nred; j++) s->balance.delta[j] = s->balance.full[T ? (size_t) T->row[j] : j];
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
@@ -249,14 +254,17 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
  * logarithm, when it was new. */
 static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, size_t *used)
 {
-    size_t most = s->elements && pg_element_preconditioner_on_grid (s->elements) ? MOST_ON_GRID
+    system_iterations *iterations = &s->iterative;
+    size_t most = iterations->elements && pg_element_preconditioner_on_grid (iterations->elements)
+                  ? MOST_ON_GRID
                                                                                  : MOST_BY_ELEMENTS;
-    pg_status status = s->elements || system_by_ranks (s)
+    pg_status status = iterations->elements || system_by_ranks (s)
                            ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, most, used)
                            : iterate_all (s, tolerance, used);
-    double gain = -log (fmax (s->fell, tolerance));    /* where it stopped early, less than was asked for */
-    if (s->pace == 0) s->pace = gain / (double) (*used + 1);
-    else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);
+    /* where it stopped early, less than was asked for */
+    double gain = -log (fmax (iterations->fell, tolerance));
+    if (iterations->pace == 0) iterations->pace = gain / (double) (*used + 1);
+    else s->choice.extra_cost += fmax (0, (double) (*used + 1) - gain / iterations->pace);
     return status;
 }
 
@@ -264,16 +272,17 @@ static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, s
  * fails a new one is made and tried once. */
 pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, double tolerance)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     size_t used = 0;
     long made = s->report->preconditioners;
     double k = dyn ? dyn->k : 1, m = dyn ? dyn->m : 0;
     system_remember_diagonal (s, NULL);
-    int other = fabs (m * s->made[0] - s->made[1] * k) > 0.3 * fmax (m * s->made[0], s->made[1] * k);
-    if (!system_has_preconditioner (s) || s->extra_cost > RENEWAL || other)
+    int other = fabs (m * it->made[0] - it->made[1] * k) > 0.3 * fmax (m * it->made[0], it->made[1] * k);
+    if (!system_has_preconditioner (s) || s->choice.extra_cost > RENEWAL || other)
         PG_TRY (system_make_preconditioner (s, k, m));
-    else s->spared += s->stale;
-    if (system_is_shared (s) && s->stale) PG_TRY (system_find_bare (s, dyn));
+    else s->choice.spared += s->direct.stale;
+    if (system_is_shared (s) && s->direct.stale) PG_TRY (system_find_bare (s, dyn));
     strcpy (s->report->solver, "cg");
     pg_status now = iterate (s, dyn, tolerance, &used);
     /* made before the last break: once more */
@@ -282,7 +291,7 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
         now = iterate (s, dyn, tolerance, &used);
     }
     PG_TRY (now);
-    s->stale = 0;
+    s->direct.stale = 0;
 done:
     return status;
 }

@@ -17,8 +17,8 @@ static const double goal = 1e-12;                      /* refinement stops here 
  * alone has to be `settled`. */
 static double force_of_rounding (const pg_system *s, const double *d)
 {
-    if (!(s->mean_diagonal > 0)) return 0;
-    return 1e-14 / s->options->tolerance * system_norm_owned (s, s->diagonal0, d);
+    if (!(s->direct.mean_diagonal > 0)) return 0;
+    return 1e-14 / s->options->tolerance * system_norm_owned (s, s->direct.diagonal0, d);
 }
 
 /* What a residual at rest may be compared with at most: the loads and the reactions that balance them, of
@@ -28,11 +28,12 @@ static double force_of_rounding (const pg_system *s, const double *d)
  * the ratio of lever arms, at most the length of the body over the spacing. */
 static double largest_reference (pg_system *s)
 {
+    system_balance *b = &s->balance;
     const double *contact = contact_forces (s);
-    double sum = s->loaded;
+    double sum = b->loaded;
     if (contact) sum += system_norm (s, contact, s->ndof);
-    if (s->excavated) sum += system_norm (s, s->excavated, s->ndof);
-    return fmax (s->lever * sum, s->borne);
+    if (b->excavated) sum += system_norm (s, b->excavated, s->ndof);
+    return fmax (b->lever * sum, b->borne);
 }
 
 /* The loads of t are known from now on: by the force on points at rest but for prescribed displacements, and
@@ -40,12 +41,13 @@ static double largest_reference (pg_system *s)
  * other where it may not grow. `best` and `scratch` are free before a solve. */
 static pg_status know_loads (pg_system *s, double t)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     const pg_problem *p = s->problem;
-    double *d = s->best, low[3], high[3], length = 0, reference;
-    if (s->lever > 0 && t == s->loaded_at) return PG_OK;
-    if (s->lever > 0 && s->loaded_at != 0 && pg_problem_proportional (p)) {
-        s->loaded *= fabs (t / s->loaded_at), s->loaded_at = t;
+    double *d = b->best, low[3], high[3], length = 0, reference;
+    if (b->lever > 0 && t == b->loaded_at) return PG_OK;
+    if (b->lever > 0 && b->loaded_at != 0 && pg_problem_proportional (p)) {
+        b->loaded *= fabs (t / b->loaded_at), b->loaded_at = t;
         return PG_OK;
     }
     pg_problem_box (p, low, high);
@@ -54,10 +56,10 @@ static pg_status know_loads (pg_system *s, double t)
     if (s->force->basis && s->force->basis (s->self) && s->force->impose)
         PG_TRY (s->force->impose (s->self, t, d));
     PG_TRY (system_exchange (s, d));
-    PG_TRY (s->force->balance (s->self, t, d, s->scratch, &reference));
-    system_clear_ghosts (s, s->scratch);
-    s->loaded = fmax (reference, system_norm (s, s->scratch, s->ndof)), s->loaded_at = t;
-    s->lever = fmax (1, system_most (s, length) / p->cloud.h);
+    PG_TRY (s->force->balance (s->self, t, d, b->scratch, &reference));
+    system_clear_ghosts (s, b->scratch);
+    b->loaded = fmax (reference, system_norm (s, b->scratch, s->ndof)), b->loaded_at = t;
+    b->lever = fmax (1, system_most (s, length) / p->cloud.h);
 done:
     return status;
 }
@@ -65,29 +67,30 @@ done:
 /* The out-of-balance force of the state, from the force itself, and what it is measured against. */
 pg_status system_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     double reference = 0, t0 = pg_seconds ();
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     int lean = dyn && !s->options->plain && s->force->spares.balance_lean;
-    int joined = lean && dyn->join && dyn->join (dyn->context, d, s->full);
+    int joined = lean && dyn->join && dyn->join (dyn->context, d, b->full);
     if (lean)
-        PG_TRY (s->force->spares.balance_lean (s->self, t, joined ? s->full : d, s->residual, &reference));
-    else PG_TRY (s->force->balance (s->self, t, d, s->residual, &reference));
-    if (dyn) dyn->add (dyn->context, d, s->residual, &reference);
+        PG_TRY (s->force->spares.balance_lean (s->self, t, joined ? b->full : d, b->residual, &reference));
+    else PG_TRY (s->force->balance (s->self, t, d, b->residual, &reference));
+    if (dyn) dyn->add (dyn->context, d, b->residual, &reference);
     const double *contact = contact_forces (s);
-    for (size_t i = 0; contact && i < s->ndof; i++) s->residual[i] += contact[i];
-    if (!dyn) loose_forces (s, d, s->residual);
-    for (size_t i = 0; s->excavated && !dyn && i < s->ndof; i++) s->residual[i] += s->excavated[i];
-    system_clear_ghosts (s, s->residual);
-    if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
-    else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
+    for (size_t i = 0; contact && i < s->ndof; i++) b->residual[i] += contact[i];
+    if (!dyn) loose_forces (s, d, b->residual);
+    for (size_t i = 0; b->excavated && !dyn && i < s->ndof; i++) b->residual[i] += b->excavated[i];
+    system_clear_ghosts (s, b->residual);
+    if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
+    else memcpy (b->reduced, b->residual, s->ndof * sizeof *b->reduced);
     /* a rank may have no supports where others have */
-    if (T || system_is_shared (s)) reference = fmax (reference, system_norm (s, s->residual, s->ndof));
-    if (!dyn && s->lever > 0) reference = fmin (reference, largest_reference (s));
-    s->reference = reference;
+    if (T || system_is_shared (s)) reference = fmax (reference, system_norm (s, b->residual, s->ndof));
+    if (!dyn && b->lever > 0) reference = fmin (reference, largest_reference (s));
+    b->reference = reference;
     reference = fmax (reference, force_of_rounding (s, d));
-    s->scale = reference;
-    double size = s->unbalanced = system_norm (s, s->reduced, s->nred);
+    b->scale = reference;
+    double size = b->unbalanced = system_norm (s, b->reduced, s->nred);
     if (!isfinite (size)) PG_FAIL (PG_E_EQUILIBRIUM, "the out-of-balance force is not finite");
     *relative = reference > 0 ? size / reference : size > 0 ? 1 : 0;
 done:
@@ -104,13 +107,14 @@ enum { MEASURED_AGAIN = 16 };
  * (*relative) keeps the reference, which is that of the state before, within a tenth of the one at hand. */
 static int accept_carried (pg_system *s, double *relative)
 {
+    system_balance *b = &s->balance;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    if (!s->carried || *relative > 0.1 || s->report->solves % MEASURED_AGAIN == 0) return 0;
-    if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
-    double size = system_norm (s, T ? s->reduced : s->residual, s->nred);
-    if (!(size <= 0.1 * s->options->tolerance * s->reference)) return 0;
-    s->unbalanced = size, *relative = s->scale > 0 ? size / s->scale : 0;
-    s->unmeasured++;
+    if (!b->carried || *relative > 0.1 || s->report->solves % MEASURED_AGAIN == 0) return 0;
+    if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
+    double size = system_norm (s, T ? b->reduced : b->residual, s->nred);
+    if (!(size <= 0.1 * s->options->tolerance * b->reference)) return 0;
+    b->unbalanced = size, *relative = b->scale > 0 ? size / b->scale : 0;
+    b->unmeasured++;
     return 1;
 }
 
@@ -128,16 +132,17 @@ static const double settled = 1e-3;
  * one more is looked at. */
 static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d, double *restless)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     if (*restless >= 0) return PG_OK;
-    s->known = 0;
+    b->known = 0;
     pg_status now = system_solve_once (s, dyn, 0.1);
     if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) *restless = 1;
     else {
         PG_TRY (now);
-        if (T) pg_sparse_multiply (T, s->delta, s->full);
-        *restless = restlessness (s, T ? s->full : s->delta, d);
+        if (T) pg_sparse_multiply (T, b->delta, b->full);
+        *restless = restlessness (s, T ? b->full : b->delta, d);
     }
 done:
     return status;
@@ -148,7 +153,8 @@ done:
 static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
 {
     size_t worst = 0;
-    for (size_t i = 1; i < s->nred; i++) if (fabs (s->reduced[i]) > fabs (s->reduced[worst])) worst = i;
+    for (size_t i = 1; i < s->nred; i++)
+        if (fabs (s->balance.reduced[i]) > fabs (s->balance.reduced[worst])) worst = i;
     if (!T) return worst;
     for (long q = T->start[worst]; q < T->start[worst + 1]; q++)
         if (T->value[q] == 1) return (size_t) T->row[q];
@@ -158,6 +164,7 @@ static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
 /* The message for a state that is not in equilibrium: how far off, where, and what may be the cause. */
 static pg_status refuse (pg_system *s, double residual, double restless)
 {
+    system_balance *b = &s->balance;
     const pg_problem *p = s->problem;
     size_t point = worst_unknown (s, s->force->basis ? s->force->basis (s->self) : NULL)
                    / (size_t) s->components;
@@ -169,7 +176,7 @@ static pg_status refuse (pg_system *s, double residual, double restless)
         return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                          "%.3g N of the loads stay unbalanced (%.3g of the reference force, allowed %.3g), "
                          "%s, and each refinement moves the points by another %.2g of their displacement",
-                         s->unbalanced, s->reference > 0 ? s->unbalanced / s->reference : 1,
+                         b->unbalanced, b->reference > 0 ? b->unbalanced / b->reference : 1,
                          s->options->tolerance, where, restless);
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                      "the residual stays at %.3g of the reference force (allowed %.3g), %s", residual,
@@ -181,12 +188,13 @@ static pg_status refuse (pg_system *s, double residual, double restless)
 static pg_status judge (pg_system *s, const double *d, const dynamics *dyn, double r, double restless,
                         double *residual)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     double tolerance = s->options->tolerance;
     *residual = r;
-    if (s->unbalanced <= tolerance * s->reference) return PG_OK;
-    if (s->unbalanced <= tolerance * s->borne) {
-        *residual = fmin (r, s->unbalanced / s->borne);
+    if (b->unbalanced <= tolerance * b->reference) return PG_OK;
+    if (b->unbalanced <= tolerance * b->borne) {
+        *residual = fmin (r, b->unbalanced / b->borne);
         return PG_OK;
     }
     if (!(r <= tolerance)) return refuse (s, r, 0);
@@ -199,14 +207,14 @@ done:
 /* Is the next solve as good as one by a factor of this very matrix? */
 static int by_factor_at_hand (const pg_system *s, const dynamics *dyn)
 {
-    return s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED
-           || (s->mode == SYSTEM_KEPT_FACTOR && !s->stale && !dyn);
+    return s->choice.mode == SYSTEM_FACTOR || s->choice.mode == SYSTEM_UNDECIDED
+           || (s->choice.mode == SYSTEM_KEPT_FACTOR && !s->direct.stale && !dyn);
 }
 
 /* 1: the state to be solved for begins a step of a motion that is solved by iterations. */
 static int guesses (const pg_system *s, const dynamics *dyn)
 {
-    return dyn && s->begins && !s->options->plain && s->mode != SYSTEM_FACTOR;
+    return dyn && s->choice.begins && !s->options->plain && s->choice.mode != SYSTEM_FACTOR;
 }
 
 /* The prediction of the scheme is improved by what the last steps have learnt of it, and measured again. */
@@ -231,14 +239,18 @@ done:
 /* What iterations aim at, a share of the tolerance, of which a tenth is good enough. Rounds of breaking may
  * leave where they are the small forces that the solution at the begin of the step has left unbalanced all
  * over the body. */
-static double aim (const pg_system *s) { return s->begins || s->mode != SYSTEM_DIAGONAL ? 0.03 : 0.06; }
+static double aim (const pg_system *s)
+{
+    return s->choice.begins || s->choice.mode != SYSTEM_DIAGONAL ? 0.03
+           : 0.06;
+}
 
 /* to = d + T x */
 void system_go_on (pg_system *s, const double *d, const double *x, double *to)
 {
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    if (T) pg_sparse_multiply (T, x, s->full);
-    const double *step = T ? s->full : x;
+    if (T) pg_sparse_multiply (T, x, s->balance.full);
+    const double *step = T ? s->balance.full : x;
     for (size_t i = 0; i < s->ndof; i++) to[i] = d[i] + step[i];
 }
 
@@ -256,30 +268,32 @@ done:
 pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
                                 int *done)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    pg_rough *rough = &s->rough;
+    pg_rough *rough = &s->iterative.rough;
     double r;
     *done = 0;
-    if (!dyn || s->options->plain || (s->mode != SYSTEM_NO_FACTOR && s->mode != SYSTEM_DIAGONAL))
+    if (!dyn || s->options->plain
+        || (s->choice.mode != SYSTEM_NO_FACTOR && s->choice.mode != SYSTEM_DIAGONAL))
         return PG_OK;
     PG_TRY (rough_ready (rough, s->ndof));
-    if (s->at_hand) r = system_take_residual (s);
+    if (b->at_hand) r = system_take_residual (s);
     else {
         if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
         PG_TRY (system_residual (s, t, d, dyn, &r));
     }
-    s->at_hand = 0;
+    b->at_hand = 0;
     if (rough->look) share = fmax (share, 10 * s->options->tolerance / r);
     if (rough->look ? share > 0.01 : !(0.1 * share * r > s->options->tolerance)) return PG_OK;
-    s->carried = s->known = 0, rough->found = 0, rough->goal = rough->look ? 0 : share;
+    b->carried = b->known = 0, rough->found = 0, rough->goal = rough->look ? 0 : share;
     status = system_solve_once (s, dyn, share);
     rough->goal = 0;
     PG_TRY (status);
     if (rough->found > 0) system_go_on (s, d, rough->earlier, rough->before);
-    system_go_on (s, d, s->delta, d);
+    system_go_on (s, d, b->delta, d);
     *done = rough->look || rough->found > 0;
-    s->known = s->at_hand = s->carried;
+    b->known = b->at_hand = b->carried;
 done:
     return status;
 }
@@ -290,10 +304,11 @@ done:
  * judged. */
 static pg_status solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double last = INFINITY, r = 0, restless = -1;
-    s->at_hand = 0;
+    b->at_hand = 0;
     if (!dyn) PG_TRY (know_loads (s, t));
     struct { double unbalanced, reference; } before = { 0, 0 };
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
@@ -301,30 +316,30 @@ static pg_status solve_linear (pg_system *s, double t, double *d, const dynamics
     for (int k = 0; k <= MOST_REFINEMENTS; k++) {
         PG_TRY (system_residual (s, t, d, dyn, &r));
         if (k == 0 && guesses (s, dyn)) PG_TRY (improve (s, t, d, dyn, &r));
-        s->known = 1;
+        b->known = 1;
         /* the last refinement made it worse: take it back */
-        if (k > 1 && r > last && s->unbalanced > before.unbalanced) {
-            memcpy (d, s->best, s->ndof * sizeof *d);
-            r = last, s->unbalanced = before.unbalanced, s->reference = before.reference;
-            s->known = 0;
+        if (k > 1 && r > last && b->unbalanced > before.unbalanced) {
+            memcpy (d, b->best, s->ndof * sizeof *d);
+            r = last, b->unbalanced = before.unbalanced, b->reference = before.reference;
+            b->known = 0;
             break;
         }
         if (r <= (by_factor_at_hand (s, dyn) ? goal : 0.1 * s->options->tolerance)
             || k == MOST_REFINEMENTS
-            || (k > 1 && r > 0.5 * last && s->unbalanced > 0.5 * before.unbalanced))
+            || (k > 1 && r > 0.5 * last && b->unbalanced > 0.5 * before.unbalanced))
             break;
-        memcpy (s->best, d, s->ndof * sizeof *d);
-        last = r, before.unbalanced = s->unbalanced, before.reference = s->reference;
-        s->carried = s->known = 0;
+        memcpy (b->best, d, s->ndof * sizeof *d);
+        last = r, before.unbalanced = b->unbalanced, before.reference = b->reference;
+        b->carried = b->known = 0;
         PG_TRY (system_solve_once (s, dyn, fmin (0.1, aim (s) * s->options->tolerance / r)));
-        if (T) pg_sparse_multiply (T, s->delta, s->full);
-        const double *step = T ? s->full : s->delta;
+        if (T) pg_sparse_multiply (T, b->delta, b->full);
+        const double *step = T ? b->full : b->delta;
         for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
         PG_TRY (system_exchange (s, d));
         if (guesses (s, dyn)) system_guess_add (s, step);
         if (k > 0) restless = restlessness (s, step, d);
-        s->known = accept_carried (s, &r);
-        if (s->known) break;
+        b->known = accept_carried (s, &r);
+        if (b->known) break;
     }
     PG_TRY (judge (s, d, dyn, r, restless, residual));
     if (guesses (s, dyn)) system_guess_learn (s);

@@ -162,8 +162,9 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     if (x->broke && x->weigh) PG_TRY (x->weigh (s));
     double t0 = pg_seconds ();
     for (size_t k = 0; k < m->nprescribed; k++)
-        m->push[k] = -sys->residual[m->prescribed[k]], sys->residual[m->prescribed[k]] = 0;
-    iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
+        m->push[k] = -sys->balance.residual[m->prescribed[k]], sys->balance.residual[m->prescribed[k]] = 0;
+    iterating all = { x, state->d, state->v, state->a, sys->balance.residual, m->inverse, m->sum, 0,
+                     sys->ndof, 0 };
     pg_parallel (s->problem->threads, m->nblock, measure, &all);
     PG_TRY (add_up (s, total));
     if (m->P) reference = 0;
@@ -193,7 +194,7 @@ static double imbalance_of_reactions (const pg_solver *s)
     for (size_t i = 0; i < sys->ndof; i++) {
         size_t k = i % components;
         if (k >= dim) continue;
-        left[k] += sys->residual[i];
+        left[k] += sys->balance.residual[i];
         if (m->P) loads[k] += fabs (m->P[i]);
     }
     for (size_t j = 0; j < m->nprescribed; j++) {
@@ -215,7 +216,7 @@ static pg_status iterate (pg_solver *s, pg_state *state)
     struct relaxation *x = m->relaxation;
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds ();
-    iterating all = { x,          state->d, state->v, state->a,  sys->residual,
+    iterating all = { x,          state->d, state->v, state->a,  sys->balance.residual,
                       m->inverse, m->sum,   x->c,     sys->ndof, x->resting };
     pg_parallel (s->problem->threads, m->nblock, move, &all);
     x->resting = 0;
@@ -324,7 +325,7 @@ static pg_status too_long (pg_solver *s, const pg_state *state, double t, long i
     pg_system *sys = &s->break_loop.system;
     size_t worst = 0, dim = (size_t) p->dim;
     for (size_t i = 1; i < state->ndof; i++)
-        if (fabs (sys->residual[i]) > fabs (sys->residual[worst])) worst = i;
+        if (fabs (sys->balance.residual[i]) > fabs (sys->balance.residual[worst])) worst = i;
     const double *x = p->cloud.x + worst / (size_t) sys->components * dim;
     pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                      "no balance after %ld iterations: the out-of-balance force is %.3g of the loads "

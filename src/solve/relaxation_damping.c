@@ -32,7 +32,7 @@ double relaxation_least_damping (const pg_solver *s, const pg_state *state)
     const double *d = state->d, *mass = m->relaxation->mass;
     size_t components = (size_t) sys->components;
     double stiff = 0, heavy = 0, sum[1 + 3 * 6] = { 0 };
-    for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
+    for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->balance.residual[i]);
     for (size_t k = 0; k < m->nprescribed; k++) stiff += d[m->prescribed[k]] * m->push[k];
     sum[0] = stiff;
     for (size_t i = 0; i < sys->ndof; i++) {

@@ -30,7 +30,7 @@ static const double most_by_diagonal = 3e-5;
 
 static double largest_share (const pg_system *s)
 {
-    return s->mode == SYSTEM_DIAGONAL ? most_by_diagonal : most_share;
+    return s->choice.mode == SYSTEM_DIAGONAL ? most_by_diagonal : most_share;
 }
 
 /* What the iterations go on by where that is not enough, and how often they do. */
@@ -46,7 +46,7 @@ static pg_status judge_both (break_loop *b, const pg_state *state, const double 
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    pg_rough *r = &s->rough;
+    pg_rough *r = &s->iterative.rough;
     pg_bond_group group = { .n = 0 };
     double t0 = pg_seconds ();
     PG_TRY (break_loop_ready (b));
@@ -92,7 +92,7 @@ static pg_status decides_all (break_loop *b, double top, int *yes)
     double *u = NULL;
     PG_ALLOC (u, b->over.n);
     for (size_t k = 0; k < b->over.n; k++) u[k] = b->utilisation[b->over.bond[k]];
-    *yes = decides (b->over.n, u, b->system.rough.earlier_u, top, break_loop_cut (b, top));
+    *yes = decides (b->over.n, u, b->system.iterative.rough.earlier_u, top, break_loop_cut (b, top));
 done:
     pg_free (u);
     return status;
@@ -102,9 +102,9 @@ done:
 static int may_be_rough (pg_system *s)
 {
     if (system_is_shared (s) || !s->force->spares.gather || s->options->plain
-        || s->rough.share < 0 || s->contact)
+        || s->iterative.rough.share < 0 || s->contact)
         return 0;
-    if (s->rough.share == 0) s->rough.share = fmin (first_share, largest_share (s));
+    if (s->iterative.rough.share == 0) s->iterative.rough.share = fmin (first_share, largest_share (s));
     return 1;
 }
 
@@ -184,7 +184,7 @@ static pg_status look_at_all (looking *w, const pg_rough_view *now, const pg_rou
 {
     pg_status status = PG_OK;
     break_loop *b = w->b;
-    pg_rough *r = &b->system.rough;
+    pg_rough *r = &b->system.iterative.rough;
     place_view (w, now, w->at), place_view (w, before, r->before);
     PG_TRY (judge_both (b, w->state, w->at, &w->top, &w->can));
     w->looks++;
@@ -203,10 +203,10 @@ done:
 static pg_status keep_view (pg_system *s, double residual, pg_rough_view **out)
 {
     pg_status status = PG_OK;
-    pg_rough *r = &s->rough;
+    pg_rough *r = &s->iterative.rough;
     pg_rough_view *v = &r->view[r->nview % ROUGH_VIEWS];
     if (!v->delta) PG_ALLOC (v->delta, s->ndof);
-    memcpy (v->delta, s->delta, s->nred * sizeof *v->delta);
+    memcpy (v->delta, s->balance.delta, s->nred * sizeof *v->delta);
     v->residual = residual, v->list = 0;
     r->nview++;
     *out = v;
@@ -230,7 +230,7 @@ static pg_status look_at_iterate (void *context, double residual, int *stop)
     pg_status status = PG_OK;
     looking *w = context;
     pg_system *s = &w->b->system;
-    pg_rough *r = &s->rough;
+    pg_rough *r = &s->iterative.rough;
     pg_rough_view *now = NULL;
     if (r->nview > 0 && residual > apart * r->view[(r->nview - 1) % ROUGH_VIEWS].residual) return PG_OK;
     if (residual > ROUGHER / apart * most_share) return PG_OK;
@@ -250,7 +250,7 @@ static pg_status watched_round (break_loop *b, const pg_state *state, double t, 
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    pg_rough *r = &s->rough;
+    pg_rough *r = &s->iterative.rough;
     looking w = { .b = b, .state = state, .can = 1 };
     int fit;
     PG_ALLOC (w.at, s->ndof);
@@ -278,11 +278,11 @@ pg_status break_loop_rough (break_loop *b, const pg_state *state, double t, doub
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    pg_rough *rough = &s->rough;
+    pg_rough *rough = &s->iterative.rough;
     int can = 1, fit = 1, tries = 0;
     *done = 0;
     if (!may_be_rough (s)) return PG_OK;
-    if (s->mode == SYSTEM_NO_FACTOR) return watched_round (b, state, t, d, dyn, top, done);
+    if (s->choice.mode == SYSTEM_NO_FACTOR) return watched_round (b, state, t, d, dyn, top, done);
     for (; tries < MOST_TRIES && !*done; tries++) {
         PG_TRY (system_solve_roughly (s, t, d, dyn, tries ? further : rough->share, &fit));
         if (!fit) break;

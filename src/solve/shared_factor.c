@@ -66,6 +66,7 @@ static int tells (const pg_system *s, const struct shared_factor *f, size_t a, s
 /* Entries of k K + m M that this rank tells; unknowns that constraints leave out couple with none. */
 static pg_status list_entries (pg_system *s, const struct shared_factor *f, size_t *n, double **out)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     size_t b = (size_t) s->components;
     const pg_sparse *K;
@@ -75,10 +76,11 @@ static pg_status list_entries (pg_system *s, const struct shared_factor *f, size
     for (size_t j = 0; j < K->ncol; j++)
         for (long e = K->start[j]; e < K->start[j + 1]; e++) {
             size_t i = (size_t) K->row[e];
-            int same = i == j, out_of_it = s->fixed[i] || s->fixed[j];
+            int same = i == j, out_of_it = it->fixed[i] || it->fixed[j];
             if (!tells (s, f, i / b, j / b) || (out_of_it && !same)) continue;
             size_t row = f->place[i / b] * b + i % b, column = f->place[j / b] * b + j % b;
-            double value = s->made[0] * K->value[e] + (same && s->made[1] != 0 ? s->made[1] * s->mass[i] : 0),
+            double value = it->made[0] * K->value[e]
+                           + (same && it->made[1] != 0 ? it->made[1] * s->mass[i] : 0),
                    *to = *out + *n;
             to[0] = (double) (row < column ? row : column), to[1] = (double) (row < column ? column : row);
             to[2] = out_of_it ? 1 : value;
@@ -139,12 +141,12 @@ done:
 
 void system_free_shared_factor (pg_system *s)
 {
-    struct shared_factor *f = s->whole_factor;
+    struct shared_factor *f = s->iterative.whole_factor;
     if (!f) return;
     if (f->factor) f->type->free (&f->factor);
     pg_free (f->place), pg_free (f->r), pg_free (f->z);
     pg_free (f);
-    s->whole_factor = NULL;
+    s->iterative.whole_factor = NULL;
 }
 
 pg_status system_make_shared_factor (pg_system *s, int *made)
@@ -157,8 +159,8 @@ pg_status system_make_shared_factor (pg_system *s, int *made)
     *made = 0;
     PG_TRY (may (s, made));
     if (!*made) return PG_OK;
-    PG_ALLOC (s->whole_factor, 1);
-    f = s->whole_factor;
+    PG_ALLOC (s->iterative.whole_factor, 1);
+    f = s->iterative.whole_factor;
     f->type = pg_linear_first (1, 1);
     f->n = (size_t) s->problem->cloud.subdomain->total * (size_t) s->components;
     PG_ALLOC (f->r, f->n);
@@ -188,7 +190,7 @@ done:
 pg_status system_apply_shared_factor (const pg_system *s, const double *r, double *z)
 {
     pg_status status = PG_OK;
-    const struct shared_factor *f = s->whole_factor;
+    const struct shared_factor *f = s->iterative.whole_factor;
     const pg_subdomain *part = s->problem->cloud.subdomain;
     size_t b = (size_t) s->components;
     memset (f->r, 0, f->n * sizeof *f->r);
@@ -197,7 +199,7 @@ pg_status system_apply_shared_factor (const pg_system *s, const double *r, doubl
     PG_TRY (pg_ranks_sum (f->n, f->r));
     PG_TRY (f->type->solve (f->factor, 1, f->r, f->z));
     for (size_t i = 0; i < part->n; i++) memcpy (z + i * b, f->z + f->place[i] * b, b * sizeof *z);
-    for (size_t i = 0; i < s->ndof; i++) if (s->fixed[i]) z[i] = 0;
+    for (size_t i = 0; i < s->ndof; i++) if (s->iterative.fixed[i]) z[i] = 0;
 done:
     return status;
 }

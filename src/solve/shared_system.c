@@ -60,9 +60,10 @@ double system_norm_owned (const pg_system *s, const double *weight, const double
 /* y = K x with ghosts of x as their owners have them. */
 void system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y)
 {
-    memcpy (s->whole, x, s->ndof * sizeof *x);
-    if (system_exchange (s, s->whole) != PG_OK) s->whole[0] = NAN;
-    op->apply (op->context, s->whole, y);
+    const system_iterations *it = &s->iterative;
+    memcpy (it->whole, x, s->ndof * sizeof *x);
+    if (system_exchange (s, it->whole) != PG_OK) it->whole[0] = NAN;
+    op->apply (op->context, it->whole, y);
     system_clear_ghosts (s, y);
 }
 
@@ -73,7 +74,8 @@ static void apply_made (void *context, const double *x, double *y)
     const pg_system *s = context;
     const pg_operator *K = s->force->operator_ (s->self);
     K->apply (K->context, x, y);
-    for (size_t i = 0; i < s->ndof; i++) y[i] = s->made[0] * y[i] + s->made[1] * s->mass[i] * x[i];
+    for (size_t i = 0; i < s->ndof; i++) y[i] = s->iterative.made[0] * y[i]
+        + s->iterative.made[1] * s->mass[i] * x[i];
 }
 
 static void diagonal_made (void *context, double *d)
@@ -81,17 +83,19 @@ static void diagonal_made (void *context, double *d)
     const pg_system *s = context;
     const pg_operator *K = s->force->operator_ (s->self);
     K->diagonal (K->context, d);
-    for (size_t i = 0; i < s->ndof; i++) d[i] = s->made[0] * d[i] + s->made[1] * s->mass[i];
+    for (size_t i = 0; i < s->ndof; i++) d[i] = s->iterative.made[0] * d[i]
+        + s->iterative.made[1] * s->mass[i];
 }
 
 static size_t row_made (void *context, size_t i, int thread, int *node, double *value)
 {
     const pg_system *s = context;
-    size_t b = (size_t) s->components, m = s->stiffness.row (s->stiffness.context, i, thread, node, value);
+    size_t b = (size_t) s->components,
+        m = s->iterative.stiffness.row (s->iterative.stiffness.context, i, thread, node, value);
     for (size_t e = 0; value && e < m; e++) {
-        for (size_t q = 0; q < b * b; q++) value[e * b * b + q] *= s->made[0];
+        for (size_t q = 0; q < b * b; q++) value[e * b * b + q] *= s->iterative.made[0];
         for (size_t k = 0; k < b && (size_t) node[e] == i; k++)
-            value[(e * b + k) * b + k] += s->made[1] * s->mass[i * b + k];
+            value[(e * b + k) * b + k] += s->iterative.made[1] * s->mass[i * b + k];
     }
     return m;
 }
@@ -107,21 +111,22 @@ static int has_lattice (const pg_system *s)
 /* On a lattice ranks smooth their own points. */
 static pg_status make_levels (pg_system *s, const pg_couplings *rows)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
-    s->inertia = (pg_operator) { s->ndof, s, apply_made, diagonal_made };
-    s->stiffness = *rows;
-    int moves = s->made[1] != 0 || s->made[0] != 1;
+    it->inertia = (pg_operator) { s->ndof, s, apply_made, diagonal_made };
+    it->stiffness = *rows;
+    int moves = it->made[1] != 0 || it->made[0] != 1;
     pg_multilevel_setting setting = { .dim = s->problem->dim, .block = s->components, .aligned = 1,
                                       .threads = s->problem->threads, .n = s->problem->cloud.n,
-                                      .x = s->problem->cloud.x, .fixed = s->fixed, .rows = *rows,
-                                      .A = moves ? &s->inertia : s->force->operator_ (s->self),
+        .x = s->problem->cloud.x, .fixed = it->fixed, .rows = *rows,
+        .A = moves ? &it->inertia : s->force->operator_ (s->self),
                                       .subdomain = part_of (s) };
     if (moves) setting.rows.context = s, setting.rows.row = row_made, setting.rows.alike = NULL;
     for (int k = 0; k < s->problem->dim; k++) setting.rows.lattice[k] = s->problem->sums->sites.step[k];
-    PG_TRY (pg_multilevel_create (&s->multilevel, &setting));
+    PG_TRY (pg_multilevel_create (&it->multilevel, &setting));
     size_t size = sizeof s->report->preconditioner,
            at = (size_t) snprintf (s->report->preconditioner, size, "multilevel, ");
-    pg_multilevel_describe_shared (s->multilevel, s->report->preconditioner + at, size - at);
+    pg_multilevel_describe_shared (it->multilevel, s->report->preconditioner + at, size - at);
 done:
     return status;
 }
@@ -129,19 +134,20 @@ done:
 /* Of the rows of points that are owned here; off a lattice by what perigal-mpi brings along. */
 pg_status system_make_shared (pg_system *s, double k, double m)
 {
+    system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
     pg_shared_rows setting = { .dim = s->problem->dim, .block = s->components, .x = s->problem->cloud.x,
-                               .fixed = s->fixed, .subdomain = part_of (s),
+        .fixed = it->fixed, .subdomain = part_of (s),
                                .k = k, .m = m, .mass = s->mass };
-    s->made[0] = k, s->made[1] = m;
+    it->made[0] = k, it->made[1] = m;
     PG_TRY (s->force->spares.couplings (s->self, &setting.rows));
     if (has_lattice (s)) {
         PG_TRY (make_levels (s, &setting.rows));
         goto done;
     }
-    PG_TRY (type->create (&s->amg, &setting));
-    type->describe (s->amg, s->report->preconditioner, sizeof s->report->preconditioner);
+    PG_TRY (type->create (&it->amg, &setting));
+    type->describe (it->amg, s->report->preconditioner, sizeof s->report->preconditioner);
 done:
     return status;
 }
@@ -149,14 +155,15 @@ done:
 /* 1: the preconditioner at hand is one of the above. */
 int system_by_ranks (const pg_system *s)
 {
-    return s->amg || s->whole_factor || (s->multilevel && system_is_shared (s));
+    return s->iterative.amg || s->iterative.whole_factor || (s->iterative.multilevel && system_is_shared (s));
 }
 
 static pg_status solve_together (pg_system *s, const double *r, double *z)
 {
-    if (s->whole_factor) return system_apply_shared_factor (s, r, z);
-    if (s->amg) return pg_shared_preconditioner_now ()->solve (s->amg, r, z);
-    pg_preconditioner P = pg_multilevel_preconditioner (s->multilevel);
+    system_iterations *it = &s->iterative;
+    if (it->whole_factor) return system_apply_shared_factor (s, r, z);
+    if (it->amg) return pg_shared_preconditioner_now ()->solve (it->amg, r, z);
+    pg_preconditioner P = pg_multilevel_preconditioner (it->multilevel);
     return P.solve (P.context, r, z);
 }
 
@@ -166,10 +173,12 @@ pg_status system_find_bare (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     const pg_operator *op = s->force->operator_ (s->self);
-    if (!s->bare) PG_ALLOC (s->bare, s->ndof);
-    op->diagonal (op->context, s->scratch);
+    if (!s->iterative.bare) PG_ALLOC (s->iterative.bare, s->ndof);
+    op->diagonal (op->context, s->balance.scratch);
     for (size_t i = 0; i < s->ndof; i++)
-        s->bare[i] = !dyn && !(s->scratch[i] > 1e-12 * fmax (s->diagonal0[i], 1e-9 * s->mean_diagonal));
+        s->iterative.bare[i] = !dyn
+                               && !(s->balance.scratch[i]
+                                    > 1e-12 * fmax (s->direct.diagonal0[i], 1e-9 * s->direct.mean_diagonal));
 done:
     return status;
 }
@@ -178,23 +187,24 @@ done:
 void system_clear_rest (const pg_system *s, double *z)
 {
     system_clear_ghosts (s, z);
-    for (size_t i = 0; s->bare && i < s->ndof; i++) if (s->bare[i]) z[i] = 0;
+    for (size_t i = 0; s->iterative.bare && i < s->ndof; i++) if (s->iterative.bare[i]) z[i] = 0;
 }
 
 /* With elimination the residual of q is put at the unknowns that q are. */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z)
 {
+    system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    if (!s->own_row) {
+    if (!s->iterative.own_row) {
         PG_TRY (solve_together (s, r, z));
         system_clear_rest (s, z);
         goto done;
     }
-    memset (s->full, 0, s->ndof * sizeof *s->full);
-    for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
-    PG_TRY (solve_together (s, s->full, s->scratch));
-    system_clear_rest (s, s->scratch);
-    for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
+    memset (b->full, 0, s->ndof * sizeof *b->full);
+    for (size_t j = 0; j < s->nred; j++) b->full[s->iterative.own_row[j]] = r[j];
+    PG_TRY (solve_together (s, b->full, b->scratch));
+    system_clear_rest (s, b->scratch);
+    for (size_t j = 0; j < s->nred; j++) z[j] = b->scratch[s->iterative.own_row[j]];
 done:
     return status;
 }
@@ -202,5 +212,5 @@ done:
 void system_free_shared (pg_system *s)
 {
     system_free_shared_factor (s);
-    if (s->amg) pg_shared_preconditioner_now ()->free (&s->amg);
+    if (s->iterative.amg) pg_shared_preconditioner_now ()->free (&s->iterative.amg);
 }

@@ -67,55 +67,46 @@ typedef struct {
     long   solves;                                     /* by elements in place of a factor */
 } pg_ways;
 
+/* The matrix k K + m M as it was last factored, and its factor. */
 typedef struct {
-    const pg_problem    *problem;
-    const pg_force_type *force;
-    void                *self;
-    const pg_solver_options *options;
-    pg_statistics           *report;
-    /* all_weak: every unknown gets the shift (touched) */
-    int       components, stale, mode, unshifted, all_weak;
-    int       serves;  /* 1: asked for before the first solve: a factor is to serve many events */
-    long      by_columns;                              /* equilibria by an event solver, no new factor */
-    int       loose;  /* 1: K was found to leave parts free to move */
-    int       base;  /* 1: the factor is the base of an event solver, which it serves whatever has broken */
-    struct event_solver *following;  /* in motion: what has broken since the factor was made; or NULL */
-    int       indefinite;  /* K proved not positive definite: another linear solver took over */
-    unsigned long revision;                            /* of K when it was last factored or found stale */
-    long      spared;                                  /* solves by the factor of an earlier K */
-    long      kept;                                    /* refreshes that left K as it was */
-    size_t    ndof, nred;
     const pg_linear_type *linear;
     void     *factor;
+    int       stale;                                   /* 1: K is another one by now */
+    unsigned long revision;                            /* of K when it was last factored or found stale */
     /* What is factored, until it has been: K itself, its pattern with the values `copy`, or (owned) what
      * constraints leave of it; the diagonal of K, while that of A stands in its place; else NULL. */
     pg_sparse A; int owned;
     double   *copy, *own_diagonal;
     int       forgotten;  /* 1: K was given up for its factor */
     double   *diagonal0, mean_diagonal;                /* of the first K */
-    unsigned char *hanging;                            /* nodes that springs hold in iterations (n) */
+    double    shift;  /* of the diagonal of weak unknowns, of mean_diagonal */
     unsigned char *touched; int marked;                /* nodes that the pre-cracks touched (n); 1: found */
-    double   *mass;                                    /* lumped, per unknown, kg */
-    const pg_sparse *M;                                /* consistent, or NULL */
-    double   *residual, *reduced, *delta, *full, *best, *scratch;
-    const double *excavated;  /* forces at rest that what was removed still exerts, N (ndof); NULL: none */
-    const double *held;  /* forces that facets still carry while they open, N (ndof); NULL: none */
-    /* of the last state measured, N: its forces; what it lacks to balance */
-    double    reference, unbalanced;
-    double    scale;  /* what its residual was divided by: the reference, or forces of rounding */
-    double    borne;  /* the largest reference of an accepted state of fixed load steps, N */
-    /* At rest: size of the loads and of what prescribed displacements alone exert at `loaded_at`, N, and how
-     * much larger the reactions can be that balance them (lever); lever 0: not known yet. */
-    double    loaded, loaded_at, lever;
-    struct body_parts *floating;  /* that move freely under loads that balance; NULL: none */
-    double    shift;
-    /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
-    double    extra_cost;
+    int       unshifted, all_weak;                     /* all_weak: every unknown gets the shift (touched) */
+    int       loose;  /* 1: K was found to leave parts free to move */
+    int       indefinite;  /* K proved not positive definite: another linear solver took over */
+    const unsigned char *alive;                        /* of the last refresh, borrowed */
+    unsigned char *factored;  /* what lived when the factor or preconditioner was made */
+    /* Cracks of the last refresh, and those of `factored`: cells that end at them follow from them besides
+     * (consistent integration). NULL: cracks do not grow. */
+    pg_crack_paths *paths, *factored_paths;
+} system_factor;
+
+/* A factor that serves on while bonds break. */
+typedef struct {
+    int       serves;  /* 1: asked for before the first solve: a factor is to serve many events */
+    int       base;  /* 1: the factor is the base of an event solver, which it serves whatever has broken */
+    long      by_columns;                              /* equilibria by an event solver, no new factor */
+    struct event_solver *following;  /* in motion: what has broken since the factor was made; or NULL */
+} system_updates;
+
+/* Conjugate gradients: their preconditioners and what they begin with. */
+typedef struct {
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
     pg_element_preconditioner *elements;               /* the same */
     void     *amg;                                     /* the same, of ranks that share the body */
     struct shared_factor *whole_factor;                /* the same, of ranks that share a small one */
     unsigned char *bare;  /* the same: unknowns that nothing holds any more (ndof); NULL: not asked for */
+    unsigned char *hanging;                            /* nodes that springs hold in iterations (n) */
     double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
     pg_operator  inertia; pg_couplings stiffness;      /* of ranks in motion: its matrix, rows of K */
@@ -128,19 +119,55 @@ typedef struct {
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
     pg_guess  guess;
-    pg_ways   ways;
-    int       begins;                                  /* the state to be solved for begins a step */
     pg_rough  rough;
+} system_iterations;
+
+/* The forces of a state, and what they lack to balance. */
+typedef struct {
+    double   *residual, *reduced, *delta, *full, *best, *scratch;
+    const double *excavated;  /* forces at rest that what was removed still exerts, N (ndof); NULL: none */
+    const double *held;  /* forces that facets still carry while they open, N (ndof); NULL: none */
+    /* of the last state measured, N: its forces; what it lacks to balance */
+    double    reference, unbalanced;
+    double    scale;  /* what its residual was divided by: the reference, or forces of rounding */
+    double    borne;  /* the largest reference of an accepted state of fixed load steps, N */
+    /* At rest: size of the loads and of what prescribed displacements alone exert at `loaded_at`, N, and how
+     * much larger the reactions can be that balance them (lever); lever 0: not known yet. */
+    double    loaded, loaded_at, lever;
+    struct body_parts *floating;  /* that move freely under loads that balance; NULL: none */
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
     int       at_hand;  /* `residual` is that of the same displacements after the last round of breaking */
     long      unmeasured;                              /* states accepted by carried residuals */
+} system_balance;
+
+/* By what systems are solved, and what it has cost. */
+typedef struct {
+    int       mode;                                    /* SYSTEM_... */
+    long      spared;                                  /* solves by the factor of an earlier K */
+    long      kept;                                    /* refreshes that left K as it was */
+    /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
+    double    extra_cost;
+    int       begins;                                  /* the state to be solved for begins a step */
+    pg_ways   ways;
+} system_choice;
+
+typedef struct {
+    const pg_problem    *problem;
+    const pg_force_type *force;
+    void                *self;
+    const pg_solver_options *options;
+    pg_statistics           *report;
+    int       components;
+    size_t    ndof, nred;
+    double   *mass;                                    /* lumped, per unknown, kg */
+    const pg_sparse *M;                                /* consistent, or NULL */
+    system_balance    balance;
+    system_factor     direct;
+    system_updates    updates;
+    system_iterations iterative;
+    system_choice     choice;
     struct system_contact *contact;                    /* of crack faces (contact.h); NULL: none */
-    const unsigned char *alive;                        /* of the last refresh, borrowed */
-    unsigned char *factored;  /* what lived when the factor or preconditioner was made */
-    /* Cracks of the last refresh, and those of `factored`: cells that end at them follow from them besides
-     * (consistent integration). NULL: cracks do not grow. */
-    pg_crack_paths *paths, *factored_paths;
 } pg_system;
 /* shared_system.c: where ranks share the body; sums over ranks, which leave alone what one process has */
 int       system_is_shared (const pg_system *s);
@@ -165,6 +192,9 @@ int       system_has_matrix (const pg_system *s);       /* the force offers K it
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller */
 void      system_free    (pg_system *s);
 pg_status system_factorize (pg_system *s, const dynamics *dyn);  /* k K + m M of the last refresh */
+/* Frees what was made to be factored, not the factor. */
+void      system_release_matrix (pg_system *s);
+const pg_operator *system_operator (const pg_system *s);               /* of the force; NULL: it has none */
 void      system_remember_diagonal (pg_system *s, const pg_sparse *K);  /* once; K NULL: by the operator */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 /* Systems with another matrix than so far, solved in this way: SYSTEM_... */

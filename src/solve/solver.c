@@ -389,37 +389,40 @@ static void report_skips (pg_solver *s)
     const pg_system *sys = &s->break_loop.system;
     const pg_statistics *r = &s->report;
     size_t factors = (size_t) r->factorizations, preconditioners = (size_t) r->preconditioners;
-    report_spared (s, sys->kept, "factorization after %ld break rounds", factors,
+    report_spared (s, sys->choice.kept, "factorization after %ld break rounds", factors,
                    "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
-    report_spared (s, sys->by_columns, "factorization after %ld events", factors,
+    report_spared (s, sys->updates.by_columns, "factorization after %ld events", factors,
                    "the factor of an earlier K and a dense system of the touched unknowns gave the same "
                    "answer (their time is not taken off)");
-    report_spared (s, sys->spared, "preconditioner in %ld solves after a break", preconditioners,
+    report_spared (s, sys->choice.spared, "preconditioner in %ld solves after a break", preconditioners,
                    "that of an earlier K serves until the iterations it costs would have paid for another "
                    "(their time is not taken off)");
-    report_spared (s, preconditioners ? 0 : sys->spared, "factorization in %ld solves after a break", factors,
+    report_spared (s, preconditioners ? 0 : sys->choice.spared, "factorization in %ld solves after a break",
+                   factors,
                    "the factor of an earlier K preconditions conjugate gradients until a new one would pay "
                    "(their time is not taken off)");
-    if (sys->ways.solves) {
+    if (sys->choice.ways.solves) {
         char what[96];
-        snprintf (what, sizeof what, "factors for %ld solves", sys->ways.solves);
+        snprintf (what, sizeof what, "factors for %ld solves", sys->choice.ways.solves);
         pg_statistics_skip (&s->report, NAN, what,
                             "while much broke, conjugate gradients with finite elements were cheaper by "
                             "stored rates");
     }
-    if (sys->rough.rounds) {
+    if (sys->iterative.rough.rounds) {
         char what[96];
-        snprintf (what, sizeof what, "exact equilibria in %ld rounds of breaking", sys->rough.rounds);
+        snprintf (what, sizeof what, "exact equilibria in %ld rounds of breaking",
+                  sys->iterative.rough.rounds);
         pg_statistics_skip (&s->report, NAN, what,
                             "nothing of them is kept but which bonds break, and rougher ones left no doubt "
                             "of it");
     }
-    if (sys->forgotten)
+    if (sys->direct.forgotten)
         pg_statistics_skip (&s->report, NAN, "memory for K beside its factor",
                             "nothing breaks: one factor serves the whole run");
-    if (!sys->unmeasured) return;
+    if (!sys->balance.unmeasured) return;
     pg_statistics_skip (&s->report,
-                        8e-9 * (double) sys->unmeasured * (double) s->problem->first_bond[PG_BOND_SETS],
+                        8e-9 * (double) sys->balance.unmeasured
+                            * (double) s->problem->first_bond[PG_BOND_SETS],
                         "measures of the residual",
                         "in motion iterations and breaking change it by known sums; every sixteenth was "
                         "measured");

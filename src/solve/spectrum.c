@@ -13,8 +13,8 @@ typedef struct { pg_system *s; double *scale, *v[3], *w; } lanczos;
 /* w = M^-1/2 K M^-1/2 v */
 static void apply (lanczos *l, const double *v)
 {
-    for (size_t i = 0; i < l->s->ndof; i++) l->s->full[i] = l->scale[i] * v[i];
-    system_multiply (l->s, l->s->full, l->w);
+    for (size_t i = 0; i < l->s->ndof; i++) l->s->balance.full[i] = l->scale[i] * v[i];
+    system_multiply (l->s, l->s->balance.full, l->w);
     for (size_t i = 0; i < l->s->ndof; i++) l->w[i] *= l->scale[i];
 }
 

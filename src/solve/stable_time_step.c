@@ -28,7 +28,8 @@ static pg_status find_bound (pg_solver *s)
     pg_system *sys = &s->break_loop.system;
     int exact = !sys->force->motion.bound && !sys->force->motion.row_sums;
     if (!sys->force->motion.bound || sys->contact) PG_TRY (system_refresh (sys, s->backup, NULL));
-    PG_TRY (pg_force_bound (sys->force, sys->self, &s->problem->cloud, sys->ndof, sys->mass, sys->full,
+    PG_TRY (pg_force_bound (sys->force, sys->self, &s->problem->cloud, sys->ndof, sys->mass,
+                            sys->balance.full,
                             &m->omega, &m->from));
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
     PG_TRY (pg_ranks_most (1, &m->omega));

@@ -96,7 +96,7 @@ int stage_next (pg_solver *s, pg_state *state)
 static void forget_removed (pg_solver *s)
 {
     stage_path *p = &s->stage;
-    s->break_loop.system.excavated = NULL;
+    s->break_loop.system.balance.excavated = NULL;
     pg_free (p->excavated), pg_free (p->excavated_now);
     p->excavated = p->excavated_now = NULL;
 }
@@ -128,7 +128,7 @@ void stage_bear (pg_solver *s, double t)
 {
     stage_path *p = &s->stage;
     double left = 1 - (t - stage_start (s));
-    s->break_loop.system.excavated = p->excavated && left > 0 ? p->excavated_now : NULL;
+    s->break_loop.system.balance.excavated = p->excavated && left > 0 ? p->excavated_now : NULL;
     for (size_t i = 0; p->excavated && i < s->break_loop.system.ndof; i++)
         p->excavated_now[i] = left * p->excavated[i];
 }
@@ -350,7 +350,7 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
     }
     if (removes)
         PG_TRY (k->numbers (k->context, "stage.excavated", s->break_loop.system.ndof, p->excavated));
-    PG_TRY (k->numbers (k->context, "stage.borne", 1, &s->break_loop.system.borne));
+    PG_TRY (k->numbers (k->context, "stage.borne", 1, &s->break_loop.system.balance.borne));
     PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "stage.records",
                                                 .number_name = "stage.record_values", .n = n, .counts = 4,
                                                 .numbers = 5 + s->problem->ngauge, .give = give_record,

@@ -37,7 +37,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
     step->unjudged = facet_unjudged (b, state, 1);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
-    b->system.borne = fmax (b->system.borne, b->system.reference);
+    b->system.balance.borne = fmax (b->system.balance.borne, b->system.balance.reference);
     contact_accept (&b->system);
     PG_TRY (contact_show (&b->system, 1));
     state->factor = state->time = t;

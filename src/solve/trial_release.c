@@ -116,8 +116,8 @@ done:
 static int has_factor (const trials *w)
 {
     const pg_system *s = w->system;
-    int keeps = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
-    return !w->never_columns && keeps && s->linear->factors && system_has_matrix (s)
+    int keeps = s->choice.mode == SYSTEM_FACTOR || s->choice.mode == SYSTEM_KEPT_FACTOR;
+    return !w->never_columns && keeps && s->direct.linear->factors && system_has_matrix (s)
            && !(s->force->basis && s->force->basis (s->self));
 }
 
@@ -171,8 +171,8 @@ static pg_status compare_stages (trials *w, const pg_state *state, const trial_f
     pg_status status = PG_OK, back;
     pg_system *s = w->system;
     double reference;
-    if (s->stale) PG_TRY (system_factorize (s, NULL));
-    s->extra_cost = 0;
+    if (s->direct.stale) PG_TRY (system_factorize (s, NULL));
+    s->choice.extra_cost = 0;
     const pg_sparse *K;
     PG_TRY (pg_force_assemble (s->force, s->self, &K));
     if (!w->K) PG_ALLOC (w->K, (size_t) K->start[s->ndof]);
@@ -189,7 +189,7 @@ static pg_status compare_stages (trials *w, const pg_state *state, const trial_f
     back = restore (w, state, n, cut);
     if (status == PG_OK) status = back;
     /* K is what it was: the factor stays */
-    if (s->force->revision) s->revision = s->force->revision (s->self);
+    if (s->force->revision) s->direct.revision = s->force->revision (s->self);
 done:
     return status;
 }
@@ -222,7 +222,7 @@ static pg_status inverse_block (trials *w, size_t m, const size_t *list, double 
     for (size_t first = 0; first < m; first += AT_ONCE) {
         size_t count = m - first < AT_ONCE ? m - first : AT_ONCE;
         for (size_t k = 0; k < count; k++) b[k * s->ndof + list[first + k]] = 1;
-        PG_TRY (s->linear->solve (s->factor, count, b, x));
+        PG_TRY (s->direct.linear->solve (s->direct.factor, count, b, x));
         for (size_t k = 0; k < count; k++) {
             b[k * s->ndof + list[first + k]] = 0;
             for (size_t i = 0; i < m; i++) H[(first + k) * m + i] = x[k * s->ndof + list[i]];
@@ -316,7 +316,7 @@ static pg_status stage_release (const trials *w, const trial_fields *f, const ch
 {
     pg_status status = PG_OK;
     stage g = { .w = w, .c = c, .n = n, .list = list, .place = place };
-    double *y = NULL, weak = WEAK_SPRING * w->system->mean_diagonal;
+    double *y = NULL, weak = WEAK_SPRING * w->system->direct.mean_diagonal;
     PG_ALLOC (g.h, n * n);
     PG_ALLOC (g.M, n * n);
     PG_ALLOC (y, n * (size_t) f->n);
@@ -459,8 +459,8 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     back = restore (w, state, n, cut);
     if (status == PG_OK) status = back;
     /* whatever factor or preconditioner there is may be that of the cut body */
-    s->stale = 1, s->alive = state->alive;
-    if (s->force->revision) s->revision = s->force->revision (s->self);
+    s->direct.stale = 1, s->direct.alive = state->alive;
+    if (s->force->revision) s->direct.revision = s->force->revision (s->self);
     system_forget_preconditioner (s);
 done:
     pg_free (p);

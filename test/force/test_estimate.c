@@ -96,7 +96,7 @@ static double effectivity (const known *k, const char *approximation, const char
     for (size_t p = 0; p < g->rows[g->bulk].n; p++) {
         double s[3];
         k->exact (g->rows[g->bulk].x + 2 * p, s);
-        for (int c = 0; c < 3; c++) s[c] -= g->stress[g->bulk][3 * p + (size_t) c];
+        for (int c = 0; c < 3; c++) s[c] -= g->measured.stress[g->bulk][3 * p + (size_t) c];
         error += g->rows[g->bulk].weight[p] * twice_energy (r.problem->material, s);
     }
     print_message (

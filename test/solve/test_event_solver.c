@@ -185,10 +185,10 @@ static void check_solution (bench *b, double tolerance)
         check_ok (event_solver_full (b->e, c, b->u[c]));
         memcpy (b->anew[c], b->u[c], b->s.ndof * sizeof (double));
         /* conjugate gradients, so that the factor of the base stays */
-        int mode = b->s.mode, stale = b->s.stale;
-        b->s.mode = SYSTEM_NO_FACTOR;
+        int mode = b->s.choice.mode, stale = b->s.direct.stale;
+        b->s.choice.mode = SYSTEM_NO_FACTOR;
         check_ok (system_solve (&b->s, times[c], b->anew[c], NULL, &residual));
-        b->s.mode = mode, b->s.stale = stale;
+        b->s.choice.mode = mode, b->s.direct.stale = stale;
         check_below (largest_difference (b->u[c], b->anew[c], b->s.ndof),
                      tolerance * largest_of (b->anew[c], b->s.ndof));
     }
@@ -261,7 +261,7 @@ static void settling_corrects_the_displacement (void **state)
     check_ok (event_solver_update (b.e, &outcome));
     check_ok (event_solver_full (b.e, 1, b.anew[1]));
     double top = largest_of (b.anew[1], n);
-    for (size_t i = n / 3; i < n / 3 + 4; i++) b.e->base[1][i] += 1e-5 * top;
+    for (size_t i = n / 3; i < n / 3 + 4; i++) b.e->base.u[1][i] += 1e-5 * top;
     check_ok (event_solver_settle (b.e, 1, 1e-12, b.u[1], &before));
     assert_true (before > 1e-8);
     check_below (largest_difference (b.u[1], b.anew[1], n), 1e-9 * top);
