@@ -21,7 +21,7 @@ def links(tree):
     age = {f: os.path.getmtime(f'{OBJECTS}src/{f}.o') if os.path.exists(f'{OBJECTS}src/{f}.o') else 0 for f in files}
     lost = [f for f in files if age[f] < os.path.getmtime(f'src/{f}.c') and (age[f] or f.split('/')[0] in tree.order)]
     if lost:
-        return None, f'{len(lost)} objects of {OBJECTS}src are missing or older than their source, as {lost[0]}.o: make first'
+        return None, f'objects of {OBJECTS}src that are missing or older than their source: {len(lost)}, as {lost[0]}.o; make first'
     there = [f for f in files if age[f]]             # programs beside the library are compiled where their libraries are installed
     output = subprocess.run([os.environ.get('NM', 'nm'), '-A', '-P', '-g'] + [f'{OBJECTS}src/{f}.o' for f in there],
                             capture_output=True, text=True, check=True).stdout
