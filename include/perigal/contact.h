@@ -99,7 +99,7 @@ void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, d
 /* paths longer than that are halved where cracks meet */
 #define PG_CONTACT_HALVED 1.0
 #define PG_CONTACT_POINTS PG_CRACK_POINTS              /* points per spacing that sample the gap */
-#define PG_CONTACT_POINTS_SPACE 4                      /* the same in space, each way */
+#define PG_CONTACT_POINTS_SPACE 4                      /* 3D: sampling points per spacing, each way */
 #define PG_CONTACT_RADIUS 2.5                          /* how far they see (pg_force_type.jump) */
 #define PG_CONTACT_TURN   0.5                          /* rad: no piece goes around such a turn */
 typedef struct {
@@ -116,7 +116,7 @@ typedef struct {
     size_t n, dim;  pg_contact_piece *piece;
     /* points that sample the gap: places (x dim), unit normals (x dim), tangents (x dim - 1 x dim), m^2 */
     size_t npoint;  double *x, *normal, *tangent, *weight;
-    size_t *first;                                     /* those of piece k: first[k] .. first[k + 1] - 1 */
+    size_t *first;                                     /* points of piece k: first[k] .. first[k + 1] - 1 */
     /* pieces of the state's cracks, which come first; then those of bonds that broke one by one, a point
      * each: these bonds (places in the family of all points), and the point that each belongs to */
     size_t nknown, nbroken, *broken, *place;

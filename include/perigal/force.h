@@ -58,7 +58,7 @@ typedef struct {
 /* Some bonds that are looked at again and again, while most of the body is not. */
 typedef struct {
     size_t  n, *bond;                                  /* ascending: indices of pg_state.alive */
-    size_t  first[PG_BOND_SETS + 1];                   /* those of each set */
+    size_t  first[PG_BOND_SETS + 1];                   /* bonds of set s: first[s] .. first[s + 1] - 1 */
     size_t *owner;                                     /* the point of its set that owns each bond (n) */
     size_t  npoint[PG_BOND_SETS], *point[PG_BOND_SETS];        /* ends of the bonds, ascending */
     size_t  nnode;  int *node;  /* nodes whose unknowns make displacement and stress there, ascending */
@@ -103,7 +103,7 @@ void pg_jump_rows_clear (pg_jump_rows *rows);
 /* Faces of cracks that may touch, in pieces that are sampled at places. Borrowed. */
 typedef struct {
     size_t n, dim, npoint;                             /* pieces; places of all of them */
-    const size_t *first;                               /* those of piece k: first[k] .. first[k + 1] - 1 */
+    const size_t *first;                               /* places of piece k: first[k] .. first[k + 1] - 1 */
     /* of places: m (x dim); unit normals (x dim); tangents at right angles (x dim - 1 x dim); m^2 */
     const double *x, *normal, *tangent, *weight;
     /* Pieces of cracks of the state, which come first, get the dead bonds that cross them; the others those

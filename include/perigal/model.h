@@ -317,8 +317,9 @@ struct pg_problem {
     pg_approx     approx;
     pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
     pg_front *front;  size_t nfront;                   /* 3D: the fronts of the pre-cracks */
-    double   closed_tip_offset;  /* the same of a tip whose faces touch (pg_tip_draw_back), m */
-    double   tip_offset;  /* of a tip where the local spacing is cloud.h, m (method.tip_offset) */
+    double   closed_tip_offset;  /* tip_offset of a tip whose faces touch (pg_tip_draw_back), m */
+    /* distance behind a tip from which its crack cuts, where the spacing is cloud.h, m */
+    double   tip_offset;
     struct pg_body_search *search;                     /* where the body is, 2D; else NULL */
     const pg_integration_type *integration;
     pg_consistency *consistency;                       /* integration: consistent; else NULL */
@@ -489,7 +490,7 @@ typedef struct pg_crack_surfaces {
     size_t *corner;                                    /* per triangle 3 vertices */
     long   *owner;                                     /* per triangle: id of the front that made it */
     double *store;                                     /* per triangle the places of its corners, 9 each */
-    pg_front *front;  size_t nfront, front_capacity;   /* those of the scene first */
+    pg_front *front;  size_t nfront, front_capacity;   /* fronts: those of the scene's cracks first */
     double  area;                                      /* grown since the start, inside the body, m^2 */
     double  nothing;                                   /* places no further apart are one, m */
 } pg_crack_surfaces;

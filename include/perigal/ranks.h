@@ -53,7 +53,7 @@ int  pg_rank (void);                                   /* 0 where it is alone */
 int  pg_rank_count (void);                             /* 1 where it is alone */
 /* Wall time that this process has spent in the calls below, waiting for other ranks included, s. */
 double pg_ranks_seconds (void);
-/* As above; alone they leave the values as they are. */
+/* Sum and largest over all ranks of each of n numbers, in place; alone nothing changes. */
 pg_status pg_ranks_sum  (size_t n, double *value);
 pg_status pg_ranks_most (size_t n, double *value);
 /* Collects on rank 0; alone a copy of `mine`. */

@@ -22,7 +22,7 @@ typedef struct {
     char     preconditioner[16];  /* of linear: pcg; auto | jacobi | multilevel; "": auto */
     unsigned flags;                                    /* of the kind, PG_SOLVER_...: perigal/model.h */
     int      event;                                    /* steps go from break to break (PG_SOLVER_EVENTS) */
-    pg_unstable on_instability;                        /* of these */
+    pg_unstable on_instability;                        /* event stepping: growth at an unchanged load */
     pg_break break_mode;
     int      plain;                                    /* 1: no shortcuts; as problem->plain */
     double   break_fraction, tie;  /* bonds within this share of the worst break with it */

@@ -109,7 +109,7 @@ typedef struct {
  * 1), so that one modulus serves all spacings. PG_E_USAGE: mode and dimension differ, no horizon, overlap
  * without a lattice, points that coincide, no bond at all. */
 pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud,
-                          const pg_lattice *lattice /* or NULL, as above */);
+                          const pg_lattice *lattice /* NULL: see pg_sites_build */);
 void      pg_sums_free   (pg_sums **sums);
 /* Energy of a straight crack along the lattice over that of theory at the same stretch, mean of the axes:
  * `toughness`, or with rule.state that of a material (E, Pa; nu). 1 without a lattice. */

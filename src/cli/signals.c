@@ -42,7 +42,7 @@ int command_same_request (const struct timespec *since)
 static void *wait_for_signals (void *none)
 {
     int number;
-    struct timespec since[64];                         /* those waited for have small numbers */
+    struct timespec since[64];                         /* first time of each signal; numbers are below 64 */
     sigset_t seen;
     pg_signals before;
     pg_signals_hold (&before);

@@ -80,7 +80,7 @@ static void measure_pairs (pg_network *out, const pg_cracks *all, double *ball, 
             const double *a = ball + 4*i, *b = ball + 4*j;
             double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] },
                    gap = sqrt (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - a[3] - b[3];
-            /* those that certainly neither touch nor are nearer than the nearest so far */
+            /* Passes over pairs whose balls are apart and no nearer than the nearest pair so far. */
             if ((gap > 0 && gap >= out->nearest) || of_one_polyline (all, i, j)) continue;
             double apart = crack_distance (&all->crack[i], &all->crack[j], all->dim);
             out->nearest = fmin (out->nearest, apart);

@@ -112,7 +112,7 @@ static int is_flat (const double *x)
     for (int k = 0; k < 3; k++) off += n[k] / size * (x[9 + k] - x[k]);
     for (int c = 1; c < 4; c++)
         for (int k = 0; k < 3; k++) wide = fmax (wide, fabs (x[3 * c + k] - x[k]));
-    /* Also no corner that points inwards beyond the diagonal. */
+    /* A corner that points inwards beyond the diagonal turns the second triangle (0, 2, 3) over. */
     const double other[9] = { x[0], x[1], x[2], x[6], x[7], x[8], x[9], x[10], x[11] };
     normal_of (3, other, m);
     return fabs (off) <= 1e-12 * wide && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > 0;

@@ -181,7 +181,7 @@ static const pg_key keys[] = {
       .doc = "Over the whole face of the bounding box, or only over the part that the body reaches: from "
              "the first to the last place along the face with the body half a cell below it (the foot of "
              "an L; one box, also across a notch)." },
-    /* The other two origins. */
+    /* Points of a file or the nodes of a mesh, in place of a lattice in a body (group "origin"). */
     { .path = "points",
       .kind = PG_FILE,
       .fallback = "",

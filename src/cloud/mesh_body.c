@@ -248,13 +248,13 @@ static double measure (const pg_mesh *m, size_t e, double *least)
     pg_element kind = (pg_element) m->kind[e];
     pg_mesh_body_nodes (m, e, x);
     int n = pg_element_rule (kind, PG_MESH_BODY_ORDER, xi, weight);
-    /* At the points of quadrature, */
+    /* Jacobian at the quadrature points, by which the volume is summed. */
     for (int q = 0; q < n; q++) {
         double J = pg_element_map (kind, m->dim, x, xi + q * m->dim, NULL, NULL);
         volume += weight[q] * J, reference += weight[q];
         low = fmin (low, J);
     }
-    /* and at the nodes, where the Jacobian of curved elements is often smallest. */
+    /* Jacobian at the nodes, where that of curved elements is often smallest. */
     for (int i = 0; i < pg_element_types[kind].nodes; i++) {
         double at[3];
         pg_element_node (kind, i, at);

@@ -231,7 +231,7 @@ static pg_status judge_fit (pg_status status, const grid *g, const pg_body *body
     return pg_scene_verdict (scene);
 }
 
-/* So is one that is too coarse. */
+/* A spacing so coarse that no cell has its centre in the body is a fault of the scene. */
 static pg_status check_cells (const pg_lattice *l, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -260,7 +260,7 @@ static int has_no_lattice (const pg_scene *scene)
     return pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh");
 }
 
-/* Of a file or a mesh. */
+/* All points of the body, from a file of points or from a mesh. */
 static pg_status all_points (pg_cloud *c, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;

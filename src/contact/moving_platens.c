@@ -157,8 +157,8 @@ static void go (pg_moving_platens *w, size_t i, double t, double dt)
     }
 }
 
-/* The other half of that work; the velocity of the next half step, from which the kinetic energy of now
- * follows. first: v is that of the instant itself. */
+/* Second half of the work of forces on platen i over the last step dt (0: none yet, v is that of this
+ * instant); then its velocity half a step later, from which the kinetic energy of now follows. */
 static void kick (pg_moving_platens *w, size_t i, double dt, double step)
 {
     const pg_problem *p = w->problem;

@@ -126,8 +126,8 @@ done:
     return status;
 }
 
-/* The other segment that goes on where segment k ends at `end`, and the end at which it begins; SIZE_MAX:
- * none or several, or a turn too sharp for one piece. */
+/* The segment that continues segment k beyond its end `end`, and its own end that lies there; SIZE_MAX: none
+ * or several, or a turn too sharp for one piece. */
 static size_t next_of (const division *d, size_t k, int end, int *begins)
 {
     const segment *s = &d->segment[k];

@@ -139,7 +139,7 @@ static pg_status take_neighbours (pg_short_range *c, const double *d, const pg_p
     if (r == SIZE_MAX) return PG_OK;
     for (size_t q = s->row[r]; q < s->row[r + 1]; q++) {
         size_t at = q;
-        if (s->pair[q].i > s->pair[q].j) {             /* the same pair in the row of the other point */
+        if (s->pair[q].i > s->pair[q].j) {             /* a pair is marked in the row of its lower point */
             size_t other = row_of (s, (size_t) s->pair[q].j);
             at = s->row[other];
             while (s->pair[at].j != s->pair[q].i) at++;

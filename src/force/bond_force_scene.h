@@ -5,8 +5,8 @@
 #define PG_BOND_FORCE_SCENE_H
 #include "perigal/force.h"
 
-extern const pg_key_table bond_force_keys;            /* of all of them */
-extern const pg_key_table state_based_keys;            /* of those with dilatations */
+extern const pg_key_table bond_force_keys;            /* keys of all bond- and state-based forces */
+extern const pg_key_table state_based_keys;            /* keys of forces with dilatations alone */
 
 /* The rule of pair forces as the scene asks for it; state-based and micropolar forces add to it. */
 void bond_force_rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
@@ -22,7 +22,7 @@ void bond_force_refuse_matrix (const pg_problem *problem, const pg_scene *scene,
 /* Entries of pg_method. */
 pg_status bond_force_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
 void bond_force_check_laws (const pg_problem *problem, const pg_scene *scene);
-/* Of pair forces, in spacings. */
+/* pg_method.tip_offset of bond- and state-based forces, in spacings. */
 double bond_force_tip_offset (const pg_problem *problem);
 void bond_force_words (const pg_problem *problem, char *text, size_t size);
 

@@ -74,8 +74,8 @@ static int member (const int *list, size_t n, int value)
 typedef struct {
     const pg_load *load;
     pg_family near;  /* points around the middle of the column below each facet of its set */
-    unsigned char *below;                              /* of them: in the column */
-    int *columns;                                      /* that hold each point (n) */
+    unsigned char *below;                              /* 1: the point is in the column (entries of near) */
+    int *columns;                                      /* number of columns that hold each point (n) */
 } columns;
 
 /* Is point j below the facet, not deeper than `depth` (m), and within half a step of its middle along

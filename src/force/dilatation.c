@@ -39,7 +39,7 @@ done:
     return status;
 }
 
-/* Also where there is none. */
+/* Frees b->dilatation; NULL: nothing to do. */
 void dilatation_free (bond_force *b)
 {
     dilatation *w = b->dilatation;

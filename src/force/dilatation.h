@@ -20,8 +20,8 @@ typedef struct dilatation {
 } dilatation;
 /* Sets b->dilatation, A and B still 0, and fills its part of b->setting. */
 pg_status dilatation_create (bond_force *b);
-void      dilatation_free   (bond_force *b);          /* also without one */
-pg_status dilatation_weigh  (bond_force *b);          /* q and stiff as they are now; also without one */
+void      dilatation_free   (bond_force *b);          /* b->dilatation may be NULL */
+pg_status dilatation_weigh  (bond_force *b);  /* q and stiff of the live bonds; no dilatation: nothing */
 /* bond_theory.find_dying */
 pg_status dilatation_dying  (bond_force *b, const double *d, size_t *count);
 /* k beta: dilatations know no factors of surfaces. */

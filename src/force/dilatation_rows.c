@@ -19,7 +19,7 @@ struct dilatation_rows {
     double *whole;                                     /* that row; NULL: there is none */
 };
 
-/* Also where there are none. */
+/* Frees the rows of the last preconditioner, if there are any. */
 void dilatation_rows_free (bond_force *b)
 {
     dilatation_rows *r = b->dilatation->rows;

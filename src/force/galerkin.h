@@ -198,7 +198,7 @@ pg_status galerkin_sight_ready (galerkin *g, int products);
 void galerkin_sight_free (galerkin *g);
 /* u, strain, stress, zz of every point, unless known */
 void galerkin_measure (galerkin *g, int set, const double *d);
-/* again, after a change of rows */
+/* Measures listed points of a set anew at its last displacement, after their rows have changed. */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);
 void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
                             size_t nnode, const int *node);
@@ -253,7 +253,7 @@ typedef struct {
 } galerkin_run_list;
 void galerkin_runs_find   (const galerkin *g, galerkin_run_list *list);
 void galerkin_runs_change (galerkin_run_list *list, size_t p);         /* the row of point p has changed */
-void galerkin_runs_forget (galerkin_run_list *list);                   /* those of all points may have */
+void galerkin_runs_forget (galerkin_run_list *list);                   /* any row may have changed */
 void galerkin_runs_clear  (galerkin_run_list *list);
 /* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on; active: blocks of
  * points that x is not zero at (NULL: all). */
@@ -369,7 +369,7 @@ static inline void galerkin_B_transpose (int dim, const double *q, const double 
 pg_status galerkin_boundary_create (galerkin *g);
 void galerkin_boundary_free (galerkin *g);
 void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out);
-/* the same as block rows (pg_assembly_source.rows) */
+/* Nitsche's terms of facet points as block rows (pg_assembly_source.rows) */
 void galerkin_facet_rows   (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_penalty_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
 /* y += what supports add to K x; facet points and constrained nodes only */

@@ -6,7 +6,7 @@
 #include "galerkin.h"
 #include <string.h>
 
-/* Also where nothing was eliminated. */
+/* Frees the elimination of prescribed nodes and T, which may both be empty. */
 void galerkin_basis_free (galerkin *g)
 {
     for (int k = 0; k < 3; k++) {

@@ -66,7 +66,7 @@ static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
            first = r->family.start[p] + pg_rows_offset (r, p);
     const double *D = galerkin_plain (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];
-    for (size_t v = 0; v < 3 && dim == 2; v++) {         /* the same, written out */
+    for (size_t v = 0; v < 3 && dim == 2; v++) {         /* rows of weight (D B_a)' in 2D, written out */
         DB[v] = (D[3 * v] * qa[0] + D[3 * v + 2] * qa[1]) * r->weight[p];
         DB[3 + v] = (D[3 * v + 1] * qa[1] + D[3 * v + 2] * qa[0]) * r->weight[p];
     }

@@ -22,7 +22,7 @@ struct galerkin_change {
     int    *place;  size_t room_place;                 /* of its nodes in K; -1: not moved by the item */
 };
 
-/* Also where nothing was recorded. */
+/* Frees the recorded change of K, if there is one. */
 void galerkin_change_free (galerkin *g)
 {
     galerkin_change *c = g->change;

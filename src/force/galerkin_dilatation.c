@@ -263,7 +263,7 @@ done:
     return status;
 }
 
-/* Also where there are no patches. */
+/* Frees the projected dilatation; NULL (a body without patches): nothing to do. */
 void galerkin_dilatation_free (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;

@@ -263,7 +263,7 @@ static void add_rest (const galerkin *g, size_t m, const int *node, const double
         }
 }
 
-/* Of the element of point p. */
+/* Stiffness, N/m, of the element of evaluation point p with weight w and m nodes. */
 static const double *point_matrix (element_list *b, size_t p, double w, size_t m, const int *node)
 {
     const galerkin *g = b->g;

@@ -36,7 +36,7 @@ int       elements_stiff (const galerkin *g, const constraint *q);
 /* galerkin_hats.c: is it elements on a coarse grid that precondition? They, of a body whose W is known. */
 int       galerkin_takes_hats (const galerkin *g);
 pg_status galerkin_hats (galerkin *g, pg_elements *out);
-/* Of a node. */
+/* Coordinates of a node, m (dim). */
 static inline const double *place (const galerkin *g, int node)
 {
     return g->problem->cloud.x + (size_t) node * (size_t) g->dim;

@@ -85,7 +85,7 @@ void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list)
     }
 }
 
-/* Also where there are none. */
+/* Frees the slices; NULL: nothing to do. */
 void galerkin_slices_free (galerkin *g)
 {
     galerkin_slices *s = g->slices;

@@ -133,7 +133,7 @@ static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t 
     dilatation_pull (b, i, s, e, stiff[i] + stiff[s->node[e]], own, other);
 }
 
-/* Of one bond, for criteria. */
+/* bond_theory.strain: shear gamma and bending kappa of one bond, for criteria. */
 static void strain (const bond_force *b, const double *xi, const double *di, const double *dj, double *shear,
                     double *bending)
 {

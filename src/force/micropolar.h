@@ -22,7 +22,7 @@ typedef struct {
     double *shear, *bending;                           /* C_t and B of each point, N/m^4 (n) */
     /* gamma0, kappa0; NULL: bonds do not break by theirs (n) */
     double *shear_limit, *bending_limit;
-    pg_beam_law law;                                   /* the same for the loop over bonds */
+    pg_beam_law law;                                   /* constants and limits above, for the bond loop */
 } micropolar;
 static inline const micropolar *micropolar_of (const bond_force *b) { return (const micropolar *) b; }
 

@@ -33,7 +33,7 @@ struct pairwise_tiles {
     size_t  spent;                                     /* points looked at one by one since then */
 };
 
-/* Also where there are none. */
+/* Frees *tiles, which may be NULL. */
 void pairwise_tiles_free (pairwise_tiles **tiles)
 {
     pairwise_tiles *t = *tiles;

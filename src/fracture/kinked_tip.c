@@ -74,7 +74,8 @@ static double on_straight (const pg_face_piece *p, const double *x, const double
     return along && behind > 0 && fabs (v[1] * e[0] - v[0] * e[1]) < 0.5 * h ? behind : NAN;
 }
 
-/* The other pieces that press end the ring. */
+/* Outer radius of a ring around x, at most r2, m: pieces of closed faces that press end it, except for those
+ * on the straight crack that ends at x in the direction e. */
 static double room_of_faces (const double *x, const double *e, double h, const pg_tip_faces *touch, double r2)
 {
     for (size_t k = 0; touch && k < touch->npiece; k++) {

@@ -44,7 +44,7 @@ typedef struct {
 typedef struct {
     size_t n, nfield;
     double *r, *theta, *area;                          /* m, rad, r dr dtheta (m^2) (n each) */
-    double *x;                                         /* the same in the scene, m (n x 2) */
+    double *x;                                         /* these places in scene coordinates, m (n x 2) */
     tip_sample field[TIP_FIELDS];
 } tip_grid;
 

@@ -194,7 +194,7 @@ static void order_units (const builder *b, candidate *list)
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++)
             list[unit_of (b, p)].seen += pg_fingerprint (PG_FINGERPRINT, &f->node[e], sizeof f->node[e]);
     pg_sort (list, b->units, sizeof *list, earlier);
-    for (size_t i = 0; i < b->units; i++) {                /* those as far away become equal */
+    for (size_t i = 0; i < b->units; i++) {                /* distances equal to rounding become equal */
         double away = list[i].away;
         if (i == 0 || away > last + equal * b->s->cloud->h) class = away;
         last = away, list[i].away = class;

@@ -82,7 +82,7 @@ typedef struct {
     unsigned char *shut;                               /* vertices that are closed by this step */
     size_t nshut;
     size_t *line, nline, line_capacity;                /* the new line, as vertices of w */
-    double *side; size_t side_capacity;                /* and the normals there */
+    double *side; size_t side_capacity;                /* crack normal at each vertex of line */
 } stride;
 
 /* ---- crack_surfaces_move.c ----------------------------------------------------------------------------- */

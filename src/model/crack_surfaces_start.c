@@ -110,7 +110,7 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     double *cut = NULL, place[3];
     PG_TRY (pg_front_reserve (&f, m + 2));
     if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
-    for (size_t k = 0; k < m; k++) {                   /* but for vertices next to the end itself */
+    for (size_t k = 0; k < m; k++) {                   /* a first vertex next to the end is left out */
         const double *x = c->x + 3 * ((first + k) % n);
         if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_problem_spacing_at (c->p, x))
             put_vertex (c, &f, x, PG_MEETS_NOTHING);

@@ -235,7 +235,7 @@ done:
 }
 
 /* ---- joining ------------------------------------------------------------------------------------------- */
-/* The other way around: the same crack seen from its other side. */
+/* Reverses a line, with its ends and normals: its crack as seen from the other side. */
 static void reverse (line *l)
 {
     for (size_t i = 0, j = l->n - 1; i < j; i++, j--) {

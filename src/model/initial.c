@@ -116,7 +116,7 @@ void pg_initial_set (const pg_problem *p, double *v)
         }
 }
 
-/* Also where nothing was given. */
+/* Frees the initial velocities of the scene, if there are any. */
 void pg_initial_clear (pg_problem *p)
 {
     for (int k = 0; k < 3; k++) pg_expression_free (&p->initial[k]);

@@ -267,7 +267,7 @@ typedef struct {
     const double *x;
     double  reach, nearest;                            /* nearest: distance of the next point, m */
     size_t  nnear;  near_point *near;                  /* the points around it on all ranks, by number */
-    size_t  n, cap;  size_t *found;  double *share;    /* those found of them, ascending, and their shares */
+    size_t  n, cap;  size_t *found;  double *share;    /* points of near within reach; share of each (n) */
 } place;
 /* Spacings from the place to the farthest points that may bear it. */
 static const double farthest = 4;

@@ -295,7 +295,7 @@ static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, co
     if (pread (f->file, old, (size_t) f->record, f->begin + (long) k * f->record) != f->record)
         PG_FAIL (PG_E_FILE, "%s: %s", f->path, errno ? strerror (errno) : "it has become shorter");
     double time = old[0], *to = new + 1;
-    most_significant_first (&time, 1);                   /* and back: the same exchange */
+    most_significant_first (&time, 1);                 /* time, big-endian in the file, to the host's order */
     new[0] = old[0];
     for (size_t v = 0; v < f->nvar; v++) {
         const double *from = old + 1 + v * f->n;

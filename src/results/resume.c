@@ -279,7 +279,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     r->generation++;
     PG_TRY (pg_checkpoint_prepare (path, resumed_all, &m));
 done:
-    /* those before are kept until all ranks have a new one */
+    /* The last checkpoint stays until all ranks have written a new one. */
     status = pg_ranks_agree (status);
     if (status == PG_OK) status = pg_ranks_agree (pg_checkpoint_commit (path));
     else pg_checkpoint_drop (path);

@@ -85,7 +85,7 @@ static const binary of_two[] = {
     [PG_OP_OR] = or,
 };
 
-/* Also used by the compiler, so that constants computed in advance have the same bits. */
+/* Value of an operator; the compiler of expressions computes constants by it too, to the same bits. */
 double pg_op_apply (pg_op op, double a, double b)
 {
     size_t k = (size_t) op;

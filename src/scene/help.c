@@ -65,7 +65,7 @@ static void print_names (FILE *to, const char *before, const char *names)
     fprintf (to, "\n");
 }
 
-/* The other keys of the same group and parent. */
+/* Prints the keys among which the group of a key lets one be given: those with its parent. */
 static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *last = strrchr (key->path, '.'), *rule = strrchr (key->group, ':'), *joint = "";

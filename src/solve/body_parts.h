@@ -20,7 +20,7 @@ typedef struct {
 } body_part;
 typedef struct body_parts {
     size_t n;
-    body_part *part;                                   /* the same on all ranks, by their least point */
+    body_part *part;                                   /* parts by their lowest points, alike on all ranks */
     int *of;                                           /* part of each point that is held here */
 } body_parts;
 /* At the last refresh. All ranks call. Of a force that does not tell what it joins there are none. */

@@ -75,13 +75,13 @@ typedef struct {
 struct system_contact {
     pg_contact_setting setting;
     pg_contact_pieces  pieces;                         /* of cracks, then of platens */
-    size_t    ncrack;                                  /* those of cracks */
+    size_t    ncrack;                                  /* pieces of cracks */
     contact_platens platens;
     contact_loose   loose;
     pg_sparse G;                                       /* G', ndof x dim n */
     int       said_blind;                              /* points that see too little were told of */
     unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
-    unsigned long again;                               /* the same of those that a resumed run makes again */
+    unsigned long again;  /* revision, + 1, whose Z and C a resumed run remakes */
     double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */
     double   *coefficient, *cohesion;                  /* mu, c A (N), of each piece (n) */
     double   *before;                                  /* slip before (n x (dim - 1)) */
@@ -102,7 +102,7 @@ struct system_contact {
     double   *rebound;                                 /* in motion: mean of impulses in the step, N (n) */
     int       moves;                                   /* 1: the last state solved for is one in motion */
     pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
-    pg_face_piece *press;                              /* those that press, of the last tip looked at (n) */
+    pg_face_piece *press;                              /* pieces that press, for the last tip examined (n) */
     contact_route route;
     contact_memory now, start;                         /* start: of the step, for one that is refused */
 };

@@ -26,7 +26,7 @@ enum { MOST_ROUNDS = 80 };
 static const double RESISTED = 1e-12;
 /* Sums of terms that cancel to this share are rounding. */
 static const double ROUNDED = 1e-12;
-/* So are forces below this share of those that the body bears, or that would undo the overlap at hand. */
+/* Forces below this share of what the body bears, or of what would undo the overlap, are rounding. */
 static const double NOISE = 1e-15;
 
 /* A free motion: of a platen along an axis (3..5: about it), or of a part. */

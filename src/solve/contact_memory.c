@@ -22,7 +22,7 @@ void contact_vector (const pg_contact_pieces *pieces, size_t k, const double *al
         out[c] = scale * (along[0] * p->tangent[0][c] + along[1] * p->tangent[1][c]);
 }
 
-/* The other way round: parts along the tangents of piece k. */
+/* Components of a vector along the tangents of piece k; in 2D the vector is one number already. */
 static void part_along (const pg_contact_pieces *pieces, size_t k, const double *vector, double *out)
 {
     const pg_contact_piece *p = &pieces->piece[k];

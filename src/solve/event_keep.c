@@ -85,7 +85,7 @@ done:
     return status;
 }
 
-/* Of every load case. */
+/* Keeps, of every load case, u and constant residual at the base, and x, p, q of touched unknowns. */
 static pg_status keep_cases (event_solver *e, const pg_keeper *k)
 {
     touched_unknowns *w = &e->touched;

@@ -31,7 +31,7 @@ typedef struct event_solver event_solver;
 typedef enum {
     EVENT_SAME,                                        /* neither K nor forces changed: u stays */
     EVENT_SOLVED,                                      /* u is the new equilibrium */
-    EVENT_DUE,                                         /* the same, but a new base would pay from now on */
+    EVENT_DUE,  /* u is the new equilibrium; a new base would pay now */
     /* Not solved, a new base is needed: the force cannot tell its change, elimination (T) changed, too many
      * touched unknowns, or a result that the residual does not bear out. */
     EVENT_LOST
@@ -58,8 +58,8 @@ int       event_solver_has_base (const event_solver *e);
 pg_status event_solver_follow (event_solver *e, double k, double m);
 /* After system_refresh, of such a base: takes in what K lost, with nothing to be solved for. */
 pg_status event_solver_note   (event_solver *e, event_outcome *outcome);
-size_t    event_solver_touched (const event_solver *e);        /* unknowns since the base */
-double    event_solver_filled  (const event_solver *e);        /* the same, as a share of the most */
+size_t    event_solver_touched (const event_solver *e);        /* unknowns touched since the base */
+double    event_solver_filled  (const event_solver *e);        /* touched unknowns over the most allowed */
 /* Columns and dense algebra since the base, in seconds by stored rates. */
 double    event_solver_spent   (const event_solver *e);
 /* The base is of no use any more. */

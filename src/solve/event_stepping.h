@@ -18,10 +18,10 @@ typedef struct {                                       /* state of `static` with
     double    engine_residual;                         /* of the base of the engine */
     int       lost;  /* a step was refused: `unit` and `base` are first guesses only */
     pg_status ended;                                   /* no step can follow: the next one fails with this */
-    char      why[1024];                               /* and says why */
+    char      why[1024];                               /* message of that failure */
     int       balance_fresh;                           /* the work balance at hand is that of `unit` */
     double    secant0;                                 /* first work per squared load factor, J */
-    double    secant, top_factor;                      /* that of now over the first; largest load factor */
+    double    secant, top_factor;  /* work per squared load factor over secant0; largest load factor */
     instability unstable;                              /* where growth goes on by itself */
     struct event_ahead *ahead;                         /* events that were found together; NULL: never */
 } event_stepping;

@@ -34,8 +34,8 @@ typedef struct {
     double  energy;                                    /* what it takes in all, J */
     /* 1: bonds that it cut are those of no other tip, so that what it dissipates is its tip's. */
     int     alone;
-    /* As it was last accounted for: the way; force times displacement, J; of the energy that its cut set
-     * free, J, as much as was not counted yet. */
+    /* When it was last accounted for: way of the tip, m; force times displacement, J; energy set free by its
+     * cut that was not counted yet, J. */
     double  way0, product, drop;
     size_t  n;  long *unknown;  double *force;         /* where they act, ascending (n) */
 } facet_hold;
@@ -117,7 +117,7 @@ double    facet_utilisation (const break_loop *b, const pg_state *state, double 
 /* Grows what is within the tie of the largest at that factor, at least one facet; b->changes are the bonds
  * that died, logged at t. The measurement is spent. */
 pg_status facet_grow    (break_loop *b, pg_state *state, double factor, double t);
-/* That one facet. */
+/* Grows one given facet. */
 pg_status facet_grow_one (break_loop *b, pg_state *state, const facet_candidate *c, double t);
 /* Tips that have grown and lost their room go straight out, at once: *grew. */
 pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew);
@@ -194,10 +194,10 @@ pg_status facet_faces_bear   (const break_loop *b, const pg_state *state, const 
 pg_status facet_hold_before (break_loop *b, double t, const double *d);
 pg_status facet_hold_begin  (break_loop *b, double t, const double *d, const facet_hold *what,
                              const double *borne);
-/* Of all holds; what `to` had is freed. */
+/* Copies holds; what `to` had is freed. */
 pg_status facet_hold_copy   (facet_hold **to, size_t *n, size_t *capacity, const facet_hold *from,
                              size_t count);
-void      facet_hold_drop   (break_loop *b, int all);  /* those that are open, or all */
+void      facet_hold_drop   (break_loop *b, int all);  /* drops holds of facets fully open; all: every one */
 /* What the facets of a tip have dissipated since they were last accounted for, at the displacement d, J, and
  * what the ones that show G0 should have. */
 void      facet_hold_account (break_loop *b, size_t tip, const double *d, double *taken, double *needed);

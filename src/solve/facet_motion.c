@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-/* Of the material at x, m/s. */
+/* Rayleigh wave speed of the material at x, m/s. */
 static double rayleigh_speed (const break_loop *b, const double *x)
 {
     const pg_problem *p = b->system.problem;
@@ -177,7 +177,8 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     return 1;
 }
 
-/* Also when one has come to the end of its facet. */
+/* 1: tips are to be looked at: a Rayleigh wave has gone far enough, or a tip has reached the end of its
+ * facet. */
 int facet_due (break_loop *b, double dt)
 {
     facet_growth *g = b->growth;

@@ -20,10 +20,10 @@
 #include <string.h>
 
 enum {
-    MOST_SPOTS = 12,                                   /* that are looked at */
-    MOST_ON_INTERFACES = 4,                            /* besides */
-    MOST_TRIED = 6,                                    /* of them that are cut */
-    LENGTHS = 6,                                       /* that are tried together */
+    MOST_SPOTS = 12,                                   /* hot spots in materials that are looked at */
+    MOST_ON_INTERFACES = 4,                            /* hot spots on interfaces, besides */
+    MOST_TRIED = 6,                                    /* hot spots at which cracks are cut */
+    LENGTHS = 6,                                       /* lengths of a crack that are tried together */
     ROUNDS = 5,
     PER_SPACING = 2,                                   /* places of stress along a crack */
     MOST_PLACES = 400,

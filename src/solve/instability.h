@@ -40,6 +40,6 @@ pg_status instability_after (pg_solver *s, instability *u, pg_state *state, doub
 int       instability_moves (const instability *u);
 /* A time step of the motion. */
 pg_status instability_step  (pg_solver *s, instability *u, pg_state *state, pg_step *step);
-/* Of the matrix; NULL at rest. */
+/* Inertia and damping of the motion at hand, with its k K + m M; NULL at rest. */
 const dynamics *instability_dynamics (instability *u);
 #endif

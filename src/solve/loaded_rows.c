@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Of that load, at rest and in motion: a run warns from there on. */
+/* Load over what its points bear at most, quasi-static and dynamic: a run warns above this. */
 static const double AT_REST = 0.7, IN_MOTION = 0.5;
 
 /* The external forces at t (ndof), what holds the loaded points when they have moved (ndof), and how far,

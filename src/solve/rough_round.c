@@ -98,7 +98,7 @@ done:
     return status;
 }
 
-/* Also the first share of a run. */
+/* May equilibria be solved inexactly? Sets the first share of the residual of a run. */
 static int may_be_rough (pg_system *s)
 {
     if (system_is_shared (s) || !s->force->spares.gather || s->options->plain

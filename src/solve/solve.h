@@ -102,10 +102,12 @@ typedef struct {
 /* Conjugate gradients: their preconditioners and what they begin with. */
 typedef struct {
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
-    pg_element_preconditioner *elements;               /* the same */
-    void     *amg;                                     /* the same, of ranks that share the body */
-    struct shared_factor *whole_factor;                /* the same, of ranks that share a small one */
-    unsigned char *bare;  /* the same: unknowns that nothing holds any more (ndof); NULL: not asked for */
+    /* preconditioner by finite elements; NULL: not used, or not made yet */
+    pg_element_preconditioner *elements;
+    void     *amg;  /* preconditioner of ranks that share the body; NULL: not used, or not made yet */
+    /* preconditioner of ranks that share a small body; NULL: not used or made */
+    struct shared_factor *whole_factor;
+    unsigned char *bare;  /* ranks: unknowns without any stiffness left (ndof); NULL: not asked for */
     unsigned char *hanging;                            /* nodes that springs hold in iterations (n) */
     double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
@@ -388,7 +390,7 @@ typedef struct {
     long   number;                                     /* of the stage at hand, from 1; 0: the run has none */
     int    over;                                       /* STAGE_...: it ends with this step */
     long   first_step, first_event;                    /* of the state when it began */
-    double first_growth;                               /* the same, stage_growth */
+    double first_growth;                               /* stage_growth at its start, m (3D: m^2) */
     double peak;                                       /* until.load: largest force in this stage, N */
     double side;  /* until.gauge: 1: it comes from below, -1: from above, 0: not known yet */
 } stage_place;
@@ -420,8 +422,8 @@ struct pg_solver {
     /* 1: alive bits of backup and state differ in the bonds of the last step's list alone */
     int       follows;
     double   *reaction;
-    pg_tip_values *tip; size_t ntip, cap_tip;          /* what was measured at tips */
-    pg_front_values *front; size_t nfront, cap_front;  /* and at vertices of fronts, in the last step */
+    pg_tip_values *tip; size_t ntip, cap_tip;          /* values measured at tips in the last step */
+    pg_front_values *front; size_t nfront, cap_front;  /* values at vertices of fronts in the last step */
     stage_path stage;
     const pg_platen_values *moving;                    /* of platens in explicit steps; NULL: none */
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
@@ -453,7 +455,8 @@ void      stage_bear    (pg_solver *s, double t);
  * there, the stage is over and *factor is where. */
 pg_status stage_cross   (pg_solver *s, const pg_state *state, const double *base, const double *unit,
                          double now, double *factor, int *crosses);
-/* The other conditions, of a state that bears its loads: met, the stage is over. */
+/* Does a state that bears its loads meet a condition of until? Then the stage is over. Event stepping leaves
+ * until.gauge to stage_cross. */
 pg_status stage_meets   (pg_solver *s, const pg_state *state, const double *reaction, int *meets);
 /* A step is accepted: what was at the end of a stage; the end of the last one is that of the run. */
 pg_status stage_close_step (pg_solver *s, const pg_state *state, pg_step *step);

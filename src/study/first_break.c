@@ -207,7 +207,7 @@ static int all_dense (const pg_problem *p)
 pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;
-    pg_problem bare = *p;  /* the same body, of which nothing breaks while it is solved */
+    pg_problem bare = *p;  /* the problem without a criterion: nothing breaks */
     pg_criterion *none = NULL;
     pg_solver_options once = *o;
     pg_solver *solver = NULL;

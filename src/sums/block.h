@@ -54,7 +54,8 @@ typedef struct {
     double         *f;                                 /* n x dim, N */
     unsigned char  *hit;  /* set to 1: a bond of the block is over its limit (blocks) */
     double         *energy;  /* sum of a (xi.eta)^2 p_i p_j over directed bonds (blocks) */
-    double         *energies;                          /* the same sum of each point (n); NULL: not wanted */
+    /* sum of a (xi.eta)^2 p_i p_j over the bonds of each point (n); NULL: not wanted */
+    double         *energies;
     /* State-based (state.h): term = xi (3), w V, w V^2, 1 / r^2, and the limit where it always is. */
     /* padded, 0 where there is no point: A d / q^2, B / q, A theta / q */
     double         *factor, *beta, *alpha;

@@ -56,7 +56,7 @@ static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec 
     _mm256_storeu_pd (out + 4, _mm256_permute2f128_pd (low, high, 0x31));
 }
 
-/* The other way round: pairs in memory to a vector of x and one of y. */
+/* a0 b0 a1 b1 ... = in: components x and y of LANES points, each to a vector of its own. */
 static inline __attribute__ ((always_inline)) TARGET void unzip (const double *in, vec *a, vec *b)
 {
     __m256d first = _mm256_loadu_pd (in), last = _mm256_loadu_pd (in + 4);

@@ -38,7 +38,7 @@ static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec 
     _mm512_storeu_pd (out + 8, _mm512_permutex2var_pd ((__m512d) a, high, (__m512d) b));
 }
 
-/* The other way round: pairs in memory to a vector of x and one of y. */
+/* a0 b0 a1 b1 ... = in: components x and y of LANES points, each to a vector of its own. */
 static inline __attribute__ ((always_inline)) TARGET void unzip (const double *in, vec *a, vec *b)
 {
     const __m512i even = _mm512_setr_epi64 (0, 2, 4, 6, 8, 10, 12, 14),

@@ -42,8 +42,8 @@ INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const d
     }
 }
 
-/* The other way round: displacements u (points x dim) of some blocks to the padded arrays of the
- * components. Places without a point stay 0. */
+/* Displacements u (points x dim) of some blocks to the padded arrays of the components. Places without a
+ * point stay 0. */
 static TARGET void spread (const pg_block_job *job, const double *u, size_t first, size_t last)
 {
     const int dim = job->dim;

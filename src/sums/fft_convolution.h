@@ -34,7 +34,7 @@ typedef struct {
     double  shift[3], base[3], slope[9];  /* motion taken off, m: shift + (base + slope . place of a site) */
     double *third;  /* sum K_ab xi_c chi, N: where open (points x thirds) */
     unsigned char *open;                               /* point: its family is not a whole one of weight 1 */
-    fft_rim *rim;  size_t nrim;                        /* those */
+    fft_rim *rim;  size_t nrim;                        /* points marked by open, with their blocks */
     double *edge;                                      /* fft_bound.c */
     unsigned char *ragged, *risky;
     size_t  room_edges;

@@ -22,7 +22,7 @@ static void gather (double *restrict workspace, const double *restrict from, siz
     if (T > n) memset (workspace + n * BATCH, 0, (T - n) * BATCH * sizeof *workspace);
 }
 
-/* The other way round; only n places are kept. */
+/* The first n places of the workspace back to a batch of columns, `stride` doubles apart */
 static void scatter (double *restrict to, const double *restrict workspace, size_t n, size_t stride)
 {
     for (size_t k = 0; k < n; k++) memcpy (to + k * stride, workspace + k * BATCH, BATCH * sizeof *workspace);

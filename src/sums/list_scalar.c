@@ -22,7 +22,7 @@
         const double *row_ = (record) + *(o); \
         UNROLL for (int c_ = 0; c_ < (columns); c_++) (out)[c_] = row_[c_]; \
     } while (0)
-/* The other end takes the opposite force; its sums have half as many columns as its record. */
+/* Subtracts the force f from the sums of the other end, which have half the columns of its record. */
 #define GIVE(sum, o, dim, f) \
     do { \
         double *to_ = (sum) + *(o) / 2; \

@@ -16,7 +16,7 @@ typedef struct { double r, beta, weight; } shell;
 typedef struct {
     const pg_sum_rule *rule;
     int    dim, reach[3];
-    double step[3];                                    /* those equal to 1e-9 are equal here */
+    double step[3];                                    /* lattice steps, m; those equal to 1e-9 made equal */
     shell *of;  /* by sizes of components, x fastest; beta 0: no bond */
 } shells;
 
