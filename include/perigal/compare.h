@@ -51,9 +51,8 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
  * displacement in the file. */
 pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double unit,
                            const pg_problem *problem);
-/* The mesh of such a sampler, in m; NULL for other samplers. outside and away (each may be
- * NULL): how many of the places sampled so far lay outside the elements, and the farthest
- * distance in element sizes. */
+/* The mesh of a sampler by pg_sampler_mesh, in m; NULL for others. outside and away (each may be NULL): how
+ * many of the places sampled so far lay outside the elements, and the farthest distance in element sizes. */
 const pg_mesh *pg_sampler_mesh_of (const pg_sampler *sampler, size_t *outside, double *away);
 /* Gauss points and weights of all elements of a mesh: x (n x dim, m), weights (m3; plane
  * elements times `thickness`, m), and the element of each point in `cell`. */

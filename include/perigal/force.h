@@ -259,7 +259,7 @@ typedef struct {
 } pg_force_type;
 /* Brings K in line with the last refresh. K may be NULL; *K NULL: there is none. */
 pg_status pg_force_assemble (const pg_force_type *force, void *self, const pg_sparse **K);
-/* K as it was assembled last (value NULL: not yet, or freed); NULL: there is none. */
+/* K as last assembled (value NULL: not assembled yet, or freed); returns NULL where the force has none. */
 const pg_sparse *pg_force_matrix (const pg_force_type *force, void *self);
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

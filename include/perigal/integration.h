@@ -26,7 +26,7 @@ typedef struct {
 /* Frees the arrays and zeroes the structure. */
 void pg_quadrature_clear (pg_quadrature *q);
 
-/* An entry of the catalogue. */
+/* A way of integrating over the body: an entry of the catalogue for method.integration. */
 typedef struct {
     /* The value of `method.integration` in a scene, and one line of description. */
     const char *name, *summary;
@@ -195,8 +195,8 @@ typedef struct {
     /* First Lame constant of every material, Pa; 0: not projected. */
     const double     *lambda;
 } pg_patch_source;
-/* Forms the patches. An image of the body has the image of its patches: they depend neither on axes nor on
- * the order of cells or, but for points between which nothing else tells, of nodes. PG_E_MEMORY. */
+/* Forms the patches. They depend neither on axes (a mirrored or rotated body has mirrored or rotated patches)
+ * nor on the order of cells or, but for points that nothing else tells apart, of nodes. PG_E_MEMORY. */
 pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source);
 void      pg_patches_free   (pg_patches **patches);
 

@@ -270,7 +270,7 @@ typedef struct {
     const unsigned char *fixed;
     /* y = A x with all n x block unknowns; borrowed. */
     const pg_operator *A;
-    /* Rows of the same A; read only during creation. */
+    /* Rows of A, read only during creation. */
     pg_couplings rows;
     /* Step of the first coarse grid in units of the reach; 0: 4/3. aligned: 1: where nodes form a lattice,
      * vertices of coarse grids lie on nodes rather than in the middle of steps: for couplings that reach

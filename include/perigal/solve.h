@@ -305,8 +305,7 @@ void      pg_solver_watch  (pg_solver *solver, pg_watch watch, void *context);
  * read back goes on bit by bit as the written one would have (same machine, threads and libraries).
  * PG_E_FILE: what is read back cannot be of this problem. */
 pg_status pg_solver_keep   (pg_solver *solver, pg_state *state, const pg_keeper *keeper);
-/* What processes have kept among whom the points were divided otherwise than they are now, by the names of
- * pg_solver_keep. */
+/* Reads back what was kept (pg_solver_keep) by ranks among which the points were divided in another way. */
 typedef struct pg_moved {
     void            *context;                          /* passed to the functions */
     const pg_keeper *alike;                            /* reads what all of them knew alike */

@@ -256,8 +256,8 @@ static void clear (pg_rows *rows, size_t first, size_t last)
     for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
-/* Do the neighbours carry the basis by few digits? Of whole supports the least pivot of a quadratic basis is
- * about 1e-3. */
+/* Is the moment matrix of the neighbours close to singular? With whole supports the least pivot of a
+ * quadratic basis is about 1e-3. */
 static int frail (const pg_neighbourhood *s)
 {
     for (int k = 0; !s->projected && k < s->size; k++)

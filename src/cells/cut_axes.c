@@ -24,8 +24,7 @@ static void find_steepness (const cut_slices *s, int surface, const double *cent
     }
 }
 
-/* Does this order take the axes as the surfaces grow steeper along them, and of equally steep ones first that
- * along which they are bent more? */
+/* Is this order of axes one by ascending steepness of the surfaces, of equal steepness by descending bend? */
 static int rises (const cut_slices *s, const int *order, const double *steep, const double *bent)
 {
     for (int k = 1; k < s->dim; k++) {

@@ -24,7 +24,7 @@ done:
 
 void spectrum_free (spectrum *s) { pg_symbol_free (&s->symbol); }
 
-/* ---- words --------------------------------------------------------------------------------------------- */
+/* ---- printing ------------------------------------------------------------------------------------------ */
 /* A motion in words with its wave vector in units of pi / step, so that 1 is the edge of the
  * zone. */
 static void print_motion (const pg_motion *m, const pg_symbol *s)

@@ -203,8 +203,8 @@ void plan_passed     (const pg_problem *p);
 void plan_network      (const pg_crack_statistics *network);
 /* What the solver has settled: time steps, stages. */
 void plan_settled     (const pg_solver *solver);
-/* Warnings of a report but for those told before (NULL: none). */
+/* Prints the warnings of a report that `before` does not have (NULL: all). */
 void plan_warnings   (const pg_statistics *report, const pg_statistics *before);
-/* Warnings of a report but for those told before, on stderr, for runs that print nothing else. */
+/* Prints new warnings of a report alone, on stderr, in runs that print nothing else. */
 void plan_quiet_warnings (const pg_statistics *report, const pg_statistics *before);
 #endif

@@ -490,8 +490,8 @@ static void print_first_growth (const plan *p)
                 b->factor);
 }
 
-/* What --solve found. A load factor above 1 means that nothing breaks under the full load,
- * which is warned of, as is a criterion that no load can reach. */
+/* Prints the first break that --solve found. A load factor above 1 means that nothing breaks under the full
+ * load, which is warned of, as is a criterion that no load can reach. */
 static void print_first_break (const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node-node", "point-node", "facet-node" };

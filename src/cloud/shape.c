@@ -58,7 +58,7 @@ static void read_radius (pg_shape *s, const pg_scene *scene, const char *at)
                                                           : pg_scene_number (scene, "%s.radius", at);
 }
 
-/* Disks and spheres alike. */
+/* Reads a disk (2D) or a sphere (3D). */
 static pg_status read_ball (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     (void) dim;

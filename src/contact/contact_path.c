@@ -26,7 +26,7 @@ static const double COUNTS = 1e-12, STILL = 1e-11, LOST = 1e-10;
 /* What the shear force of a closed pair may do: nothing, there is no friction; hold the slip; it is on the
  * edge of the cone; at its apex, where no direction is known yet. */
 typedef enum { SMOOTH, INSIDE, EDGE, APEX } shear_freedom;
-/* Pairs that are open; that press; that just touch. */
+/* Normal state of a contact pair: open; pressing; just touching. */
 typedef enum { APART, PRESSED, TOUCHING } normal_freedom;
 
 typedef struct {
@@ -297,7 +297,7 @@ static void find_end (track_work *w, double until)
         m->due[k] = m->changes && way_of_pair (w, k, range) <= least * (1 + COUNTS);
 }
 
-/* Would pair k open with a shear force? Only cohesion makes one: it is gone at once. */
+/* Is pair k open with a shear force left? Only cohesion can cause that, and it is lost at once. */
 static int drops (const track_work *w, size_t k)
 {
     const size_t d = w->p->dim;

@@ -19,7 +19,8 @@
 enum { SWEEPS = 400 };
 static const double settled = 1e-9;                    /* of a spacing: what a last sweep changes at most */
 
-/* A pair that is looked at in this step: its line and the largest of ways by a unit force. */
+/* A pair of points for which a contact force is sought in this step: its line, and how far a unit force moves
+ * its points. */
 struct held_pair {
     size_t i, j;
     double y[3], e[3];                                 /* from i to j, m; the same as a unit vector */
@@ -72,7 +73,8 @@ static int too_near (size_t dim, const double *y, const double *ahead, double le
 
 typedef struct { pg_short_range *c; const double *d; const pg_point_ways *w; } looking;
 
-/* Pairs that would end the step too near if nothing held them; overlaps as they are. */
+/* Marks the pairs of some rows that would end the step too near each other without contact forces, and finds
+ * the largest overlap of each row. */
 static void look_at_rows (void *context, size_t first, size_t last, int thread)
 {
     const looking *l = context;

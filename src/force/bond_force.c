@@ -19,7 +19,7 @@ void point_bonds_at (const bond_force *b, size_t i, int thread, point_bonds *s)
     pg_sums_bonds (b->problem->sums, b->family, i, s->xi, s->weight, s->beta);
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
+/* ---- creation and release ------------------------------------------------------------------------------ */
 /* Frees a force of bonds, also one that was made in part only: all of it began as zeros. */
 void bond_force_free (void **self)
 {

@@ -58,7 +58,7 @@ static void add_blocks (int dim, const double *DB, size_t m, const double *q, do
     for (size_t n = 0; n < m && dim == 1; n++) k[n] += q[n] * DB[0];
 }
 
-/* Point p adds its blocks of local node a with 0..m-1. */
+/* Adds to out the blocks of K by which evaluation point p couples its local node a with nodes 0 .. m - 1. */
 static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
 {
     const pg_rows *r = &g->sums;

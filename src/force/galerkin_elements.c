@@ -278,11 +278,11 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
     return b->K;
 }
 
-/* Of a tetrahedron, of the material of point p. The exact gradient of flat ones is far stiffer than anything
- * that shape functions of a wide support make of the same displacements: it is that of a field fitted with a
- * large least spread, and what differs from it resists less than it would, but for rotations, which have no
- * energy. Supports that are stretched as the elements are see steep gradients across them: theirs is the
- * exact one. */
+/* Stiffness of a tetrahedron of the material of point p. The exact gradient of flat ones is far stiffer than
+ * anything that shape functions of a wide support make of the same displacements: it is that of a field
+ * fitted with a large least spread, and what differs from it resists less than it would, but for rotations,
+ * which have no energy. Supports that are stretched as the elements are see steep gradients across them:
+ * theirs is the exact one. */
 static const double *tetrahedron_matrix (element_list *b, size_t p, const int *node)
 {
     const galerkin *g = b->g;

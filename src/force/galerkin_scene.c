@@ -145,9 +145,9 @@ static int projects (const pg_scene *scene)
     return yes;
 }
 
-/* Spacings by which wider supports (pg_rows_widen) reach beyond a horizon (at most 1.6 in 130 random bodies
- * at horizons of 1.5 to 3.5, at most 3 beside cracks of 80 more); cells between a host and its small guests
- * and what these need, twice. */
+/* Ghost layers, in spacings: how far wider supports (pg_rows_widen) reach beyond a horizon (at most 1.6 in
+ * 130 random bodies at horizons of 1.5 to 3.5, at most 3 beside cracks of 80 more); in cells, those between a
+ * host and its small cut cells (pg_consistency) and what these need, twice. */
 enum { WIDER = 2, WIDER_AT_CRACKS = 4, HOSTS = 2 };
 
 /* Of ranks that share the body. The row of an owned node is made of the points within one horizon of it,

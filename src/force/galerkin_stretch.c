@@ -106,8 +106,7 @@ done:
 }
 
 /* ---- the bonds that are judged ------------------------------------------------------------------------- */
-/* Bonds with at least this elongation; list takes those with a utilisation from `from` on (NULL: not
- * wanted). */
+/* Search for bonds whose elongation (pg_criterion_type.elongation, with `square`) is `least` or more. */
 typedef struct {
     galerkin_batch batch;
     double least, square;

@@ -10,7 +10,8 @@ enum { BATCH = GALERKIN_BATCH };
 static const double NEVER = -1e300;
 
 /* ---- bounds of points ---------------------------------------------------------------------------------- */
-/* No bound of the stresses but themselves: a criterion might use more with less tension. */
+/* loose 1: utilisation of points by bounds of s1 and s3, where all criteria grow with s1 and -s3; 0: by s1
+ * and s3 themselves. */
 typedef struct { galerkin *g; int set, loose; const struct envelope *all; } bounding;
 
 /* Of many criteria that are planes in (s1, s3): the least and the largest coefficients of each of the n

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A and B of every point from its material. */
+/* State-based moduli A (dilatation) and B (deviation), Pa, of every point from its material. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;

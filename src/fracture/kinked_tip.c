@@ -175,7 +175,7 @@ static void mean_load (const tip_grid *grid, int at, double *b)
     for (int i = 0; i < 2; i++) b[i] = area > 0 ? b[i] / area : 0;
 }
 
-/* Moments of one field over the ring r1 .. r2. */
+/* Adds the moments of field `at` over the ring r1 .. r2, from which K_I and K_II of the tip follow. */
 static void add_ring (kinked_moments *out, const tip_grid *grid, int at, const tip_material *m,
                       const turned *t, double r1, double r2, double extent)
 {

@@ -22,8 +22,8 @@ typedef struct {
     size_t from, to;
     /* Kinds, first nodes and nodes as in pg_cells. */
     const unsigned char *kind;  const size_t *start;  const double *x;
-    /* Number of cut ones, and how many of them have been written; points of cut one k within `cut`:
-     * first[k] .. first[k + 1] - 1. */
+    /* Number of cut cells or facets, and of those already written; points of the k-th within `cut`: first[k]
+     * .. first[k + 1] - 1. */
     size_t ncut, next;  size_t *first;
     /* Points of all cut ones. */
     pg_cut_points cut;

@@ -111,8 +111,8 @@ done:
     return status;
 }
 
-/* The couplings of function p in the list, rows first[p] .. first[p + 1] - 1 of it: how many different ones,
- * or, node given, which. where (n): numbers up to `mark` mean nothing; left above it for these. */
+/* Number of different functions that a coarse function couples with, by its rows in the list `all`, at *begin
+ * .. end[-1]; node: which (NULL: not wanted). where[q] > mark: function q is counted. */
 static size_t couplings_of (const double *all, const size_t *begin, const size_t *end, size_t wide,
                             size_t mark, size_t *where, int *node)
 {

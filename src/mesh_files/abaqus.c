@@ -34,7 +34,7 @@ pg_status abaqus_wrong (const reader *r, const char *where, const char *format, 
 /* Reads the next line of a file; 0: its end. */
 static int next_line (abaqus_file *f) { return mesh_line (&f->c, &f->line, &f->end); }
 
-/* Is it a line of a keyword, or a comment? The line then begins at the asterisk, behind blanks. */
+/* Does the line hold a keyword or a comment? It then begins at the asterisk, behind blanks. */
 static int has_asterisk (abaqus_file *f)
 {
     const char *s = f->line;

@@ -42,8 +42,8 @@ pg_status mesh_load  (mesh_file *out, char **bytes, const char *path);
 /* Appends a field of nnode x components zeros; *field is borrowed until the next call. */
 pg_status mesh_fields_add (mesh_fields *f, size_t nnode, const char *name, int components,
                            pg_mesh_field **field);
-/* The step as a number from 0 of `steps` steps; a step that does not exist is a fault that says which there
- * are. */
+/* Number of a time step, from 0 (step -1: the last one); PG_E_USAGE, with the steps that there are, if it is
+ * none of `steps`. */
 pg_status mesh_fields_step (const char *path, size_t steps, int step, size_t *out);
 
 /* ---- text ---------------------------------------------------------------------------------------------- */

@@ -19,11 +19,11 @@ enum { SHORT, LONG, FLOATS, DOUBLES, NAME = 9, MOST_COMPONENTS = 64 };
 /* A block of results. */
 typedef struct {
     char   name[NAME];
-    /* Time of its step. */
+    /* Time of the step of the block. */
     double value;
     /* Number of the step; number of nodes. */
     long   number, nodes;
-    /* Format of its values, and number of components that are stored. */
+    /* Format of the values of the block, and number of components that are stored. */
     int    format, components;
     /* Where the values begin. */
     mesh_cursor data;

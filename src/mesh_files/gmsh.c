@@ -30,7 +30,7 @@ static int find_header (mesh_cursor *c)
     return 0;
 }
 
-/* The header may be missing in files of version 1, which are not known. */
+/* Is it a Gmsh file with a header? Files of version 1, which are not supported, may have none. */
 int gmsh_knows (const mesh_file *file, double *version)
 {
     mesh_cursor c = mesh_begin (file);

@@ -471,7 +471,8 @@ done:
     return status;
 }
 
-/* How many bonds there are not because something parts their ends: a bond between points once. */
+/* Notes how many pairs of points within a horizon have no bond, as a slot, gap or corner lies between them;
+ * pairs of nodes count once. */
 static pg_status note_parted (pg_problem *p)
 {
     pg_status status = PG_OK;

@@ -270,7 +270,7 @@ static void close_met_here (stride *s)
 }
 
 /* ---- 2: where the crack cuts --------------------------------------------------------------------------- */
-/* The place of the old rim nearest to where the crack has cut behind vertex i; NULL: there is none near. */
+/* Vertex of the rim before this step that is nearest to `place`, within 0.3 spacings; NULL: none is. */
 static const double *rim_at (const stride *s, size_t i, const double *place)
 {
     const double *best = NULL;

@@ -10,7 +10,7 @@
         (p) = more_; \
     } while (0)
 
-/* Twice what is asked for, so that a front that grows vertex by vertex is seldom moved. */
+/* Makes room for n vertices of a front, and as many more: it seldom moves while it grows one by one. */
 pg_status pg_front_reserve (pg_front *f, size_t n)
 {
     pg_status status = PG_OK;

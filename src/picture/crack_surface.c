@@ -54,9 +54,9 @@ typedef struct {
     const pg_solid *solid;
     pg_screen *screen;
     pg_nearest *near;                                  /* NULL: by depth */
-    const double *value;                               /* of the points */
-    int axis;                                          /* of the depth */
-    double unit;                                       /* of the depth, m */
+    const double *value;                               /* value that colours each point */
+    int axis;                                          /* axis along which depth is measured */
+    double unit;                                       /* of depths in the picture, m */
 } painter;
 
 /* A triangle inside the box, bright as its side towards the eye is. */

@@ -19,7 +19,7 @@ struct pg_movie {
     /* Pictures promised and here; the number of the next numbered chunk; size in pixels. */
     size_t   frames, count;
     uint32_t number, width, height;
-    /* Seconds of a picture as a fraction. */
+    /* Duration of a picture, s: numerator and denominator. */
     uint16_t delay[2];
 };
 

@@ -335,7 +335,7 @@ static inline __attribute__ ((always_inline)) int some_nearer (const float *has,
     return some;
 }
 
-/* Offers point k to pixel (i, j). */
+/* Gives pixel (i, j) to point k if that is nearer than the pixel's owner. */
 static void offer (const pg_tiles *t, size_t k, double far, int i, int j, pg_screen *s)
 {
     size_t p = (size_t) j * (size_t) s->width + (size_t) i;
@@ -346,8 +346,8 @@ static void offer (const pg_tiles *t, size_t k, double far, int i, int j, pg_scr
     if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
 }
 
-/* Offers point k, with no crack near it, to eight pixels of a row from (i, j) on, as `offer` does one by one:
- * a pixel without an owner has an infinite depth. dy: from the point, in steps, m. */
+/* Gives eight pixels of a row, from (i, j) on, to point k where it is nearer than their owner, as `offer`
+ * does for one; no crack is near, pixels without owner have infinite depth. dy: from the point, m. */
 static inline __attribute__ ((always_inline)) void offer_eight (const double *at, size_t k, double far, int i,
                                                                 double dy, double left, double scale,
                                                                 int *owner, float *depth)

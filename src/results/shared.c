@@ -72,8 +72,8 @@ double pg_result_once (double value) { return pg_ranks_now () && pg_rank () ? 0 
 /* ---- events -------------------------------------------------------------------------------------------- */
 typedef struct { pg_broken broken; int64_t point, node; } event;
 
-/* As one process lists them: by time and round, then by the set of the bond, the point that has it and the
- * one it leads to. */
+/* For qsort: events in the order of a run by one process: by time, round, set of the bond, its own point, its
+ * other point. */
 static int earlier (const void *a, const void *b)
 {
     const event *x = a, *y = b;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: help and manual of any list of rows (tests bring their own). */
+ * Private: writes help, manual and JSON schema of a table of keys, that of a scene or any other. */
 #ifndef PG_SCENE_HELP_H
 #define PG_SCENE_HELP_H
 #include "schema.h"

@@ -22,7 +22,7 @@ typedef struct {
 pg_status   pg_measure_read    (pg_measure *m, const char *text, size_t n);
 /* Have both the same dimension? rad counts as 1. */
 int         pg_measure_same    (const pg_measure *a, const pg_measure *b);
-/* Is it dimensionless? */
+/* Is the measure dimensionless? */
 int         pg_measure_plain   (const pg_measure *m);
 /* Name of the dimension: "Pa", "m^2 kg", "1"; an example of a value: "10 GPa", NULL: none is known. */
 void        pg_measure_text    (const pg_measure *m, char *out, size_t n);

@@ -122,7 +122,7 @@ done:
     return status;
 }
 
-/* Bonds alone and state-based. */
+/* Micromodulus, critical stretches and energy of the bond-based and the state-based model. */
 static void find_stretches (pg_bond_constants *out, const pg_bond_choice *c, const pg_kernel *kernel,
                             const factors *f)
 {

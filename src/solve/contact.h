@@ -52,7 +52,7 @@ typedef struct {
     pg_sparse G;                                       /* columns of all pieces */
     unsigned char *taken;                              /* 1: the piece is a pair (all.n) */
     size_t *at;                                        /* piece of each pair behind those of cracks */
-    double (*motion)[6], (*reaction)[6];  /* of the state last solved for: m, rad; on the body, N, N m */
+    double (*motion)[6], (*reaction)[6];  /* state last solved for: m, rad; forces on the body, N, N m */
     /* forces and ways of each piece when work was last booked; at the step's start (2 dim all.n) */
     double *booked, *start;
     pg_platen_values *shown;
@@ -123,7 +123,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
 pg_status contact_check   (const pg_system *s);
 /* As system_solve. */
 pg_status contact_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
-/* Gaps of a displacement under the forces at hand, without what the layer between the faces gives way by. */
+/* Gaps at the displacement d, without the compression of layers by the present contact forces. */
 void contact_gaps (struct system_contact *c, const double *d);
 /* What the report says of the pieces. */
 void contact_count (pg_system *s);

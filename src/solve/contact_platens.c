@@ -42,10 +42,9 @@ done:
     return status;
 }
 
-/* The mean distance of a piece of a curved surface is not that at which it first touches: a disk of radius R
- * would come (2 h)^2 / 6 R too late under a plane. All pieces of a platen come nearer by what the nearest of
- * them is further away than the nearest place: where it touches first is right, and the shape that the means
- * have stays. */
+/* Reduces the mean gaps between a platen and the pieces of a curved surface, by which a disk of radius R
+ * would touch a plane (2 h)^2 / 6 R too late: all of them by what the mean gap of the nearest piece is above
+ * the least distance there. The first touch is right then, and the shape that the means have stays. */
 static void begin_at_first_touch (const pg_problem *p, const pg_contact_pieces *one, size_t platen,
                                   double *gap)
 {

@@ -343,7 +343,7 @@ done:
 }
 
 /* ---- marks --------------------------------------------------------------------------------------------- */
-/* Share, forces, gaps, status of every place that is marked. */
+/* Numbers that a mark of the contact path keeps: share s, forces, gaps, status of every piece. */
 static size_t mark_size (const struct system_contact *c) { return 1 + 2 * rows_of (c) + c->pieces.n; }
 
 pg_status contact_route_mark (pg_system *s)

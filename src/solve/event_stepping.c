@@ -307,8 +307,8 @@ done:
     return status;
 }
 
-/* Does the utilisation of the worst bond grow with the load factor, as its limit in closed form has it? That
- * of the finite stretch does so nearly. */
+/* Is the utilisation of the worst bond proportional to the load factor, so that its critical factor is exact?
+ * With the finite stretch it is only nearly so. */
 static int grows_in_proportion (const break_loop *b, const pg_state *state)
 {
     double top = break_loop_largest (b, b->utilisation), off = 0;

@@ -68,7 +68,7 @@ pg_status affine_aim   (pg_solver *s, pg_state *state, double level, int arrived
                         int *stops);
 /* *stops: a state from which nothing goes on at a held load meets a condition of its stage. */
 pg_status affine_meets (pg_solver *s, const pg_state *state, const double *reaction, int *stops);
-/* Facets: where the next one grows, *end, at most at full load. */
+/* *end: load factor at which the next crack increment (facet) grows, at most that of full load. */
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
 /* With contact: accounts the way of a facet from before it to where the next one grows, at which
  * affine_next_growth has left the forces of contact, and back through all changes of status to the state

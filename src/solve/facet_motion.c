@@ -277,7 +277,7 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     facet_rest (b);
-    if (g->event_tip < 0) return PG_OK;                /* it has ended: nothing runs along its facet */
+    if (g->event_tip < 0) return PG_OK;                /* no tip goes on: the crack has ended */
     size_t i = (size_t) g->event_tip;
     PG_TRY (facet_make_room (g, state->paths->ntip));
     g->run[i].length = g->event_length;

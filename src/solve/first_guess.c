@@ -135,7 +135,7 @@ done:
     return status;
 }
 
-/* Takes the guess back, and forgets the pairs that it was made of. */
+/* Takes the first guess of this step off d again, and forgets the earlier corrections that it was made of. */
 void system_guess_undo (pg_system *s, double *d)
 {
     double *x = pair_x (s, s->iterative.guess.next), *y = pair_y (s, s->iterative.guess.next);

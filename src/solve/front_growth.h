@@ -57,7 +57,7 @@ pg_status fronts_start   (break_loop *b, pg_state *state, const facet_candidate 
 long      fronts_unjudged (const break_loop *b, const pg_state *state);
 
 /* ---- front_growth.c, results --------------------------------------------------------------------------- */
-/* Values at the vertices for results. */
+/* Fills J, T stress, K and utilisation at the vertices of crack fronts, for results. */
 pg_status fronts_show    (pg_solver *s, const pg_state *state, double factor);
 
 /* ---- front_direction.c --------------------------------------------------------------------------------- */

@@ -15,8 +15,8 @@ typedef struct {
 /* The crack of a hot spot that slides: one (side 0) or the other of the two planes on which the strength is
  * reached. */
 void      shear_lay   (const search *g, const hot_spot *spot, int side, double *angle, shear_start *out);
-/* What drives a crack at a place, constant (k = 0) or slope (1): the normal stress, or the shear stress less
- * what its faces bear by friction, Pa. */
+/* Stress that drives a crack at one place, constant part (k = 0) or slope over the load factor (1), Pa: the
+ * normal stress, or the shear stress less the friction on its faces. */
 double    shear_drive (const shear_start *c, const double face[4], int k);
 /* The fields of the search less the uniform stress that the faces of such a crack would bear: what they have
  * on its plane is what sliding sets free. `out` lives in the trials until the next call. */

@@ -117,7 +117,7 @@ typedef struct {
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
     int       precondition;  /* with `fixed`: the constraints allow a preconditioner of several levels */
     int       remake;  /* read back: the preconditioner is to be made from `factored` */
-    double    fell;  /* residual that the last iterations ended at, over the first */
+    double    fell;  /* last over first residual of the last solve by iterations */
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
     pg_guess  guess;
@@ -186,7 +186,7 @@ pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* after 
 void      system_clear_rest   (const pg_system *s, double *z);         /* ghosts, and what nothing holds */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);
 void      system_free_shared  (pg_system *s);
-/* shared_factor.c: a factor of k K + m M (s->made) that every rank has; *made 0: not of this body */
+/* shared_factor.c: every rank makes a factor of k K + m M (s->made); *made 0: none, as of a large body */
 pg_status system_make_shared_factor  (pg_system *s, int *made);
 pg_status system_apply_shared_factor (const pg_system *s, const double *r, double *z);
 void      system_free_shared_factor  (pg_system *s);

@@ -26,7 +26,7 @@ static int seen (const pg_problem *p, const pg_state *state, const double *x, co
                                                                                         : PG_MEETS_NOTHING;
 }
 
-/* In steps of an eighth of the spacing; the last one is halved until the place is known to rounding. */
+/* The search goes in steps of an eighth of the spacing and halves the last one until the place is exact. */
 double trial_reach (const pg_problem *p, const pg_state *state, const double *x, const double *direction,
                     double limit, int *what)
 {

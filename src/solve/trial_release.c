@@ -31,8 +31,8 @@ typedef struct {
     double work[3];                                    /* u_a.(r_b + df_b)/2, symmetric, J: 00, 01, 11 */
 } change;
 
-/* With the weights 1 - lambda and lambda. A part that comes loose with its loads sets free without bound, at
- * whatever load. */
+/* Polynomial of lambda of a quadratic form; two fields have the weights 1 - lambda and lambda. A part that
+ * comes loose with its loads releases energy without bound, at whatever load. */
 void trial_polynomial (const trial_fields *f, const trial_form *form, double *c)
 {
     const double *v = form->value;

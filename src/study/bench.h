@@ -50,7 +50,7 @@ const char *pg_bench_mesh_missing (const char *path, const char *scene);
 void        pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size);
 /* Makes the mesh of a case unless it has been made. */
 pg_status   pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q);
-/* Makes it, and fills c->mesh. */
+/* Makes the mesh of a case unless it has been made, and fills c->mesh. */
 pg_status   pg_bench_mesh_set  (pg_bench_case *c, const pg_bench_request *q);
 /* Adds the same bodies for CalculiX, with meshes in DIR/fem; this needs ccx, python3 and
  * make_mesh.py. */

@@ -78,7 +78,7 @@ done:
     return status;
 }
 
-/* Against a table; unit and scale belong to its columns, the shift moves its places.
+/* Compares a result with a table: unit and scale belong to its columns, the shift moves its places.
  * PG_E_USAGE if none of them lies in the body: a wrong unit is the usual reason. */
 static pg_status against_table (pg_comparison *c, const pg_comparison_request *q)
 {

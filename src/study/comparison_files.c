@@ -96,8 +96,8 @@ static int main_axis (const pg_line *l)
     return best;
 }
 
-/* Both sides of the columns of one kind: that of --field, or else displacements if there are
- * any. Lines are the result, markers the reference. */
+/* Plots columns of one kind (--field; else displacements if there are any): results as lines, reference
+ * values as markers. */
 static pg_status line_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_line *l,
                                const char *path)
 {

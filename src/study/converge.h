@@ -10,7 +10,7 @@ typedef struct {
     char   name[PG_CONVERGE_NAME], unit[32];
     /* 1: it is an error, whose limit is 0. */
     int    error;
-    /* NAN where it is not known at that size. */
+    /* The number at each size; NAN where it is not known. */
     double value[PG_CONVERGE_SIZES];
 } pg_quantity;
 /* A study with one horizon. */

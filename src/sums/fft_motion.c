@@ -10,8 +10,8 @@
  * these */
 typedef struct { double centre[3], shift[3], rr[9], vr[9]; } moments;
 
-/* At most 1024 points, spread by the golden ratio, so that they lie on no line or row of the lattice;
- * those without live bonds are left out, as they may fly anywhere. */
+/* Moments of a sample of at most 1024 points, spread by the golden ratio, so that they lie on no line or row
+ * of the lattice; those without live bonds are left out, as they may fly anywhere. */
 static moments sample (const transformer *t, const double *u)
 {
     enum { SAMPLES = 1024 };
@@ -74,9 +74,9 @@ static void fit_strain (const moments *m, int dim, double *G)
     }
 }
 
-/* shift + (base + slope . (x, y, z)) of a site. Base and slope in units so coarse that no sum or product of
- * these is rounded anywhere in the lattice: a motion of rounded values would be another one at every point.
- * Strained: all in base, so that u loses no digit of the little that is left of it. */
+/* Fits a motion shift + (base + slope . site) to u, to be taken off before the transforms. Base and slope are
+ * multiples of a unit so coarse that no sum of them is rounded at any site. strained: u is a small remainder,
+ * and all of the shift goes into base, so that u loses no digit. */
 void pg_fft_fit_motion (transformer *t, const double *u, int strained)
 {
     const pg_sums *sums = t->s->setting.sums;

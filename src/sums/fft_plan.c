@@ -121,7 +121,7 @@ static int make_plans (fft_box *b, double *x, double *y, unsigned how)
     return all;
 }
 
-/* Plans that do not exist are NULL. */
+/* Destroys the FFTW plans; those that were not made are NULL. */
 static void clear_plans (fft_box *b)
 {
     fftw_plan *all[] = { &b->row[0], &b->row[1], &b->middle[0], &b->middle[1], &b->last[0], &b->last[1] };

@@ -94,7 +94,7 @@ void      pg_list_run    (bond_list *list, int loop, int check, list_take take, 
 /* Appends the bonds that died in the last run to `broken`; without memory for it none did. */
 pg_status pg_list_lost   (bond_list *list, pg_changes *broken);
 pg_status pg_list_order  (bond_list *list);            /* point, rank, before */
-pg_status pg_list_fill   (bond_list *list);            /* slots and limits */
+pg_status pg_list_fill   (bond_list *list);            /* fills slots and limits of the bonds */
 /* Entry of the family of the bond from point i to point j (old numbers). */
 size_t    pg_list_entry  (const pg_family *family, size_t i, size_t j);
 size_t    pg_list_owner  (const pg_family *family, size_t entry);      /* the point whose bond an entry is */

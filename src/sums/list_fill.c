@@ -136,7 +136,7 @@ done:
     return status;
 }
 
-/* What a sort of bonds needs, once its slots are counted */
+/* Allocates the arrays of shared or unshared bonds, once their slots are counted */
 static pg_status alloc_slots (bond_slots *slots, size_t slices, int terms)
 {
     pg_status status = PG_OK;

@@ -214,7 +214,7 @@ static void fill_chi_beta (convolver *c, size_t row, size_t place)
     for (size_t k = 0; k < c->n[0]; k++) x[k] = chi[k] * beta[k];
 }
 
-/* From the box of the transforms to the padded places of the loops. */
+/* Copies the rows of sites from the box of the transforms to the padded array of the bond loops. */
 static void copy_rows (convolver *c, double *out)
 {
     const stencil *s = &c->base.base;

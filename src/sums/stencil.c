@@ -69,7 +69,7 @@ static shell shell_at (const shells *s, const int *n)
     return out;
 }
 
-/* Number of an offset of sizes n in the table, x fastest. */
+/* Index in the table of shells of an offset with components of sizes n, x fastest. */
 static size_t place (const shells *s, const int *n)
 {
     return (size_t) n[0]

@@ -33,7 +33,7 @@ typedef struct {
     double *answer;
 } box;
 
-/* May be called for a box that was never built. */
+/* Frees a box, also one that was never built. */
 static void clear (box *b)
 {
     if (b->self) b->force->free (&b->self);
