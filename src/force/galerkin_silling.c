@@ -160,7 +160,8 @@ void galerkin_silling_sum (const galerkin *g, size_t first, size_t last, const d
 /* Row a, column b of a matrix is number 3 a + b; w: weights of the points, 0 beyond the run. */
 typedef struct { eight H[9], T[9], own[3], w, c; } eight_points;
 
-/* First pass over the bonds of eight points: H, T = weight sigma - c M; returns sum_j w_j z_j in `sum`. */
+/* Displacement gradients H and T = weight sigma - c M (file head) of eight points, by a first pass over their
+ * bonds; sum: sum_j w_j z_j. */
 INLINE void first_pass (int dim, const galerkin_bundle *b, eight_points *e, eight *sum)
 {
     const galerkin *g = b->g;

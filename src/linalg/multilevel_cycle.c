@@ -163,8 +163,8 @@ done:
     return status;
 }
 
-/* `degree` steps of the smoother. b given: from z = 0. b NULL: a second smoothing of a z whose last change
- * d has not been taken from the residual yet, which the first step does. */
+/* Smooths z by `degree` steps. b given: from z = 0. b NULL: a second smoothing, of a z whose last change d
+ * has not been taken from the residual yet; its first step does that. */
 static pg_status smooth (const level *l, int degree, const double *b, double *z)
 {
     pg_status status = PG_OK;

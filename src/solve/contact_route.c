@@ -79,8 +79,8 @@ static void show_forces (pg_system *s)
     c->now.at = c->route.from + c->route.track.s;
 }
 
-/* What forces at s = 0 would be by the line at hand: noted once for each line, so that what is measured by
- * it does not depend on where along it the state stands. */
+/* Notes the contact forces that the present linear stretch of the path would have at s = 0, once for each
+ * stretch: what is measured by them does not depend on where along it the state stands. */
 static void note_line (pg_system *s)
 {
     struct system_contact *c = s->contact;

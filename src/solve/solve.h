@@ -101,7 +101,7 @@ typedef struct {
 
 /* Conjugate gradients: their preconditioners and what they begin with. */
 typedef struct {
-    pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
+    pg_multilevel *multilevel;                         /* multilevel preconditioner; NULL: none (yet) */
     /* preconditioner by finite elements; NULL: not used, or not made yet */
     pg_element_preconditioner *elements;
     void     *amg;  /* preconditioner of ranks that share the body; NULL: not used, or not made yet */

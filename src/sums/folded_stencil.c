@@ -21,7 +21,7 @@ struct folding {
     pg_fold   fold;                                    /* what the loops read */
     double   *pull, *slope, *low, *high;             /* ... owned */
     size_t    rows;                                    /* of sites */
-    double    limit, shortest;  /* limit: critical stretch s0 less rounding; shortest bond, m */
+    double    limit, shortest;  /* critical stretch s0 less rounding; length of the shortest bond, m */
     unsigned char *whole;                              /* of each block: all its bonds live */
     unsigned *from;  /* of each block: place whose displacement is taken off in its group of blocks */
     double   *most, *drift;                            /* of each block: e; the sum since, m */
