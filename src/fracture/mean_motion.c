@@ -4,6 +4,7 @@
  * what stresses miss of equilibrium, and a place whose shape functions do not reproduce linear fields strains
  * under it. Least squares over the nodes: linear in the field, and exact for motions of a rigid body. */
 #include "mean_motion.h"
+#include "held_points.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
@@ -28,21 +29,6 @@ static void spin_of (int dim, const double *J, const double *L, double *spin)
 static int inside (const double *x, size_t dim, const double *low, const double *high)
 {
     for (size_t k = 0; k < dim; k++) if (!(x[k] >= low[k] && x[k] <= high[k])) return 0;
-    return 1;
-}
-
-/* Does node i, such as one on a crack, see no other one? It stays behind when the body moves. */
-static int is_alone (const pg_problem *p, const pg_state *state, size_t i)
-{
-    const pg_family *f = &p->rows[PG_NODES].family;
-    if (p->method->shape_functions && !p->integration->at_nodes) {
-        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, state), p->cloud.x + i * (size_t) p->dim,
-                                              pg_cloud_same (&p->cloud));
-        return on && !on->sided;
-    }
-    if (!f->start) return 0;
-    for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-        if (state->alive[p->first_bond[PG_NODES] + e] && (size_t) f->node[e] != i) return 0;
     return 1;
 }
 
