@@ -104,6 +104,8 @@ const pg_writer *pg_writer_find  (const char *name);
 const char      *pg_writer_names (void);
 /* What runs of any format have left in a folder goes, of `own` but for `keep` (pg_writer.clear). */
 void             pg_writer_clear (const pg_writer *own, const char *folder, int keep);
+/* PG_E_USAGE: the fields in the folder have a format that cannot be read back. */
+pg_status        pg_writer_readable (const char *folder);
 /* Finishes a folder whose run was killed behind its end, whichever writer it had. PG_E_FILE. */
 pg_status        pg_writer_complete (const char *folder);
 

@@ -3,6 +3,7 @@
 #include "entries.h"
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const pg_writer *const table[] = {
 #define PG_WRITER(name) &pg_writer_##name,
@@ -33,6 +34,19 @@ void pg_writer_clear (const pg_writer *own, const char *folder, int keep)
         if (table[i]->clear) table[i]->clear (folder, table[i] == own ? keep : -1);
         else if (table[i] != own) remove (path);
     }
+}
+
+pg_status pg_writer_readable (const char *folder)
+{
+    char path[4096];
+    for (size_t i = 0; i < COUNT; i++) {
+        snprintf (path, sizeof path, "%.3800s/%s", folder, table[i]->file);
+        if (!table[i]->read && access (path, F_OK) == 0)
+            return pg_error (PG_E_USAGE, PG_HERE,
+                             "%s is for other programs (output.format: %s), and this one cannot read it: run "
+                             "the scene with output.format: %s", path, table[i]->name, table[0]->name);
+    }
+    return PG_OK;
 }
 
 pg_status pg_writer_complete (const char *folder)

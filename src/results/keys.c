@@ -16,7 +16,7 @@ static const pg_key keys[] = {
       .fallback = PG_FIRST_CHOICE,
       .choices_of = pg_writer_names,
       .doc = "Format of the fields; `perigal list` says what each of these is. `perigal plot` and `perigal "
-             "compare` read the first." },
+             "compare` read result.e only." },
     { "output.pictures", PG_NAMES, NULL, "[0, 100]", "[damage]", NULL, NULL, NULL,
       "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx). Of a mesh: on its "
       "elements, while no bond is broken. []: none, and no charts either." },
@@ -59,7 +59,8 @@ static const pg_key keys[] = {
       "interrupted or fails." },
     { "output.join", PG_NAME, NULL, NULL, "auto", "auto|yes|no", NULL, NULL,
       "Ranks that divide the body: whether rank 0 makes result.e of the parts when the run has ended, for "
-      "which it has to hold the values of all points. auto: up to 2e7 points. One process ignores it." },
+      "which it has to hold the values of all points. auto: up to 2e7 points. One process ignores it, and "
+      "parts of another format stay." },
     { "output.stress_intensity", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
       "Energy release rate J and stress intensity factors of every tip of a crack, as columns tip.N.J ... of "
       "history.csv and in tips.csv; in 3D of every vertex of its front, as columns front.N.J_max and in "

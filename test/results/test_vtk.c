@@ -3,7 +3,6 @@
  * too; a run that is stopped and goes on, or meets a full disk, leaves the bytes of one that nobody
  * disturbed; nothing of an earlier run stays. */
 #include "again.h"
-#include <glob.h>
 #include <netcdf.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -54,7 +53,7 @@ static void same_numbers (const grid *g, const char *name, size_t n, size_t m, c
     const double *found = array_at (g, text, &bytes);
     wide = bytes / (8 * n);
     assert_int_equal (bytes, 8 * n * wide);
-    assert_true (wide == m || (wide == 3 && m == 2) || !name[0]);
+    assert_int_equal (wide, m == 2 || !name[0] ? 3 : m);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < wide; k++) {
             double a, b = k < m ? value[i * m + k] : 0;
@@ -93,8 +92,8 @@ static void nodes_of (int ncid, const char *name, size_t step, size_t first, siz
 {
     int var;
     assert_int_equal (nc_inq_varid (ncid, name, &var), NC_NOERR);
-    assert_int_equal (nc_get_vara_double (ncid, var, (size_t[2]) { step, first }, (size_t[2]) { 1, n }, value),
-                      NC_NOERR);
+    assert_int_equal (nc_get_vara_double (ncid, var, (size_t[2]) { step, first }, (size_t[2]) { 1, n },
+                                          value), NC_NOERR);
 }
 
 /* The faces of a moment: places, fields, and which exist, as the block of cracks of result.e has them. */
@@ -153,7 +152,7 @@ static void as_in_exodus (const char *text, int cracks)
     assert_int_equal (count_lines (list), 5 + steps * (1 + (size_t) cracks));
     block = pg_calloc (cloud.n, sizeof *block);
     for (size_t i = 0; i < cloud.n; i++) block[i] = cloud.block[i];
-    assert_true (steps > 2 && nfield >= 4);
+    assert_true (steps > 1 && nfield >= 4);
     for (size_t k = 0; k < steps; k++) {
         snprintf (name, sizeof name, "result.%04zu.vtu", k);
         snprintf (line, sizeof line, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"%s\"/>\n", time[k], name);
@@ -186,8 +185,8 @@ static void as_in_exodus (const char *text, int cracks)
     "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nfailure: {criterion: " \
     "energy_release, fracture_energy: 400 J/m2}\n" \
     "boundary: [{set: back, displacement: {x: 0, y: 0, z: 0}}, {set: front, displacement: " \
-    "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 3}\n" \
-    "output: {pictures: [], at: {events: 1}}\n"
+    "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 2}\n" \
+    "output: {pictures: [], at: {levels: 3, events: 1}}\n"
 #define TWO_ROCKS \
     "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\nmaterials: {a: " \
     "{youngs_modulus: 1 GPa, poissons_ratio: 0.2}, b: {youngs_modulus: 2 GPa, poissons_ratio: 0.2}}\n" \
@@ -195,36 +194,21 @@ static void as_in_exodus (const char *text, int cracks)
     "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], fields: [displacement, damage, stress, " \
     "nodal_force], at: {levels: 3}}\n"
 
+#define CRACKED \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.9]}}}]\nspacing: 0.1\n" \
+    "cracks: [{from: [-0.1, 0.46], to: [0.43, 0.43]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
+    "poissons_ratio: 0.2}}\nfailure: {fracture_energy: 400 J/m2}\n" PULL \
+    "solver: {stepping: event, max_events: 5}\noutput: {pictures: [], at: {levels: 4, events: 2}}\n"
+
 static void numbers_are_those_of_exodus (void **state)
 {
     (void) state;
     as_in_exodus (TWO_ROCKS, 0);
-    as_in_exodus (scenes[6].text, 1);
+    as_in_exodus (CRACKED, 1);
     as_in_exodus (SOLID, 1);
 }
 
 /* ---- going on ------------------------------------------------------------------------------------------ */
-/* The files of fields, how many there are, and in all of them the same bytes. */
-static void same_fields (const char *a, const char *b)
-{
-    glob_t one, other;
-    char path[200];
-    snprintf (path, sizeof path, "%s/result*", a);
-    assert_int_equal (glob (path, 0, NULL, &one), 0);
-    snprintf (path, sizeof path, "%s/result*", b);
-    assert_int_equal (glob (path, 0, NULL, &other), 0);
-    assert_int_equal (one.gl_pathc, other.gl_pathc);
-    for (size_t k = 0; k < one.gl_pathc; k++) {
-        long n = size_of (one.gl_pathv[k]);
-        assert_string_equal (strrchr (one.gl_pathv[k], '/'), strrchr (other.gl_pathv[k], '/'));
-        assert_int_equal (n, size_of (other.gl_pathv[k]));
-        char *x = slurp (one.gl_pathv[k]), *y = slurp (other.gl_pathv[k]);
-        assert_memory_equal (x, y, (size_t) n);
-        pg_free (x), pg_free (y);
-    }
-    globfree (&one), globfree (&other);
-}
-
 static void go_on (const char *text, const char *where)
 {
     run r;
@@ -240,9 +224,9 @@ static void go_on (const char *text, const char *where)
 static void a_stopped_run_goes_on_to_the_same_bytes (void **state)
 {
     (void) state;
-    const int which[] = { 1, 6 };
+    const char *const of[] = { scenes[1].text, CRACKED };
     for (size_t s = 0; s < 2; s++) {
-        char *text = with_format (scenes[which[s]].text, "vtk"), plain[64], where[64];
+        char *text = with_format (of[s], "vtk"), plain[64], where[64];
         long looks;
         make_folder (plain), make_folder (where);
         assert_int_equal (stop_after (text, plain, 0, &looks), 0);
@@ -344,7 +328,7 @@ static void an_earlier_run_leaves_nothing (void **state)
          where[64];
     make_folder (plain), make_folder (where);
     assert_int_equal (stop_at (few, plain, 0), 0);
-    assert_int_equal (stop_at (scenes[6].text, where, 0), 0);
+    assert_int_equal (stop_at (TWO_ROCKS, where, 0), 0);
     assert_int_equal (stop_at (vtk, where, 0), 0);
     assert_int_equal (size_of (inside (where, "result.e")), -1);
     assert_true (size_of (inside (where, "result.0004.vtu")) > 0);
