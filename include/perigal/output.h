@@ -35,6 +35,8 @@ typedef struct {
 typedef struct { double x[3][3]; size_t point[3]; double since; } pg_crack_face;
 
 /* ---- writers: a catalogue of formats for the fields of a run ------------------------------------------- */
+/* A run writes all its fields at some moments: a moment has a number, from 0, a time, and the values of every
+ * field at that time. */
 /* What one of several processes that divide the points says of the whole: which part it has and of how many,
  * and whether the parts are to become one when the run has ended. While a writer begins: the number of each
  * of its points in the whole, from 0 and not without gaps (n); points of the whole, and of them those of each
@@ -69,12 +71,12 @@ typedef struct {
     const char *name, *summary, *file;
     int parts;
     /* Begins: anew (at NULL), in the place of what an earlier run has left of this format; or goes on behind
-     * the moments of `at`, of which PG_E_FILE says that they are not there any more: what was written later
-     * goes. */
+     * the moments of `at`, and removes what was written later. PG_E_FILE: some of these moments are not there
+     * any more; the folder stays as it is then. */
     pg_status (*open) (void **self, const pg_field_request *request, const pg_field_marks *at);
-    /* Writes a moment, by its number from 0: the fields of the request with values. time: s, or what stands
-     * for it, ascending. All processes that divide the points call. Where it fails for one of them nothing is
-     * written. */
+    /* Writes a moment: the fields of the request with values. Times ascend: s, in static runs load factors or
+     * numbers of steps. All processes that divide the points call. If it fails the moment is not there, and
+     * its number comes again. */
     pg_status (*step) (void *self, long moment, double time, const pg_field_view *field);
     /* What `open` needs, beside the number of moments, to go on behind those that are written: such as the
      * length of a file in bytes. */
@@ -86,15 +88,17 @@ typedef struct {
      * faces of cracks, or what parts become together; `open` can still go on as if it had not been called
      * (NULL). */
     pg_status (*prepare) (void *self, size_t n, const pg_crack_face *face);
-    /* done 1: nothing can go on any more, and what was prepared takes its place; 0: it goes. It serves also
-     * where a run was killed behind its end (share NULL then), and where nothing was prepared (NULL). */
+    /* done 1: the run cannot be gone on with any more, and what was prepared takes its place; 0: the run
+     * failed, and what was prepared is removed. It is called too where a run was killed behind its end (share
+     * NULL then), and where nothing was prepared (NULL). */
     pg_status (*finish) (const char *folder, const pg_field_share *share, int done);
-    /* Removes from a folder what runs of this format have left; keep >= 0: but for that of one process (0) or
-     * of so many parts, and what such a run does not write (NULL: it is FOLDER/file). */
+    /* Removes from a folder what runs of this format have left, all of it (keep -1), or what does not belong
+     * to a run of one process (keep 0) or of `keep` parts (NULL: FOLDER/file is all there is). */
     void      (*clear) (const char *folder, int keep);
-    /* For runs that go on among other processes, which have to divide their moments anew: number and times of
-     * the moments in FOLDER; a field of one of them, at the points of part `part` of `size` (size 0: of all)
-     * (NULL: moments may stay as those before have written them). To be freed with pg_free. */
+    /* Reads back, so that a run can go on among other processes, which divide the points anew and write all
+     * moments again: number and times of the moments in FOLDER; a field of one of them, at the points of part
+     * `part` of `size` (size 0: of all). To be freed with pg_free. (Both NULL: moments stay as the processes
+     * before have written them.) */
     pg_status (*times) (const char *folder, int size, size_t *n, double **time);
     pg_status (*read)  (const char *folder, int size, int part, long moment, const char *field, size_t *n,
                         int *components, double **value);
@@ -102,7 +106,7 @@ typedef struct {
 /* The writer of that name, NULL: unknown; all names, separated by |. */
 const pg_writer *pg_writer_find  (const char *name);
 const char      *pg_writer_names (void);
-/* What runs of any format have left in a folder goes, of `own` but for `keep` (pg_writer.clear). */
+/* Removes from a folder what runs of other formats have left, and of `own` what `keep` says (its `clear`). */
 void             pg_writer_clear (const pg_writer *own, const char *folder, int keep);
 /* PG_E_USAGE: the fields in the folder have a format that cannot be read back. */
 pg_status        pg_writer_readable (const char *folder);

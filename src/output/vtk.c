@@ -32,6 +32,8 @@
 static const char data_end[] = "\n</AppendedData>\n</VTKFile>\n";
 static const char list_end[] = "</Collection>\n</VTKFile>\n";
 
+/* How the places of the points are described. */
+static const pg_field_view places = { "Points", "m", 3, NULL };
 /* Longest path; cells by their numbers of nodes, which are vertices, lines, triangles. */
 enum { PATH = 4096 };
 static const unsigned char cell_kind[] = { 0, 1, 3, 5 };
@@ -88,6 +90,14 @@ static void describe (FILE *f, const char *element, const pg_field_view *v, int 
     fputs ("/>\n", f);
 }
 
+/* An array of the cells, of so many bytes, which *at moves behind. */
+static void describe_cells (FILE *f, const char *type, const char *name, uint64_t *at, uint64_t bytes)
+{
+    fprintf (f, "<DataArray type=\"%s\" Name=\"%s\" format=\"appended\" offset=\"%llu\"/>\n", type, name,
+             (unsigned long long) *at);
+    *at += bytes;
+}
+
 /* The XML: what each array is and where it begins. */
 static void put_head (FILE *f, const grid *g, double time)
 {
@@ -99,17 +109,14 @@ static void put_head (FILE *f, const grid *g, double time)
              g->n, cells);
     for (size_t k = 0; k < g->nview; at += size_of_view (g, &g->view[k]), k++)
         describe (f, "DataArray", &g->view[k], g->dim, &at);
-    fprintf (f, "</PointData>\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" "
-             "format=\"appended\" offset=\"%llu\"/>\n</Points>\n<Cells>\n", (unsigned long long) at);
+    fputs ("</PointData>\n<Points>\n", f);
+    describe (f, "DataArray", &places, 3, &at);
     at += size_of (g->n, 3 * sizeof (double));
-    fprintf (f, "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"%llu\"/>\n",
-             (unsigned long long) at);
-    at += size_of (g->n, 8);
-    fprintf (f, "<DataArray type=\"Int64\" Name=\"offsets\" format=\"appended\" offset=\"%llu\"/>\n",
-             (unsigned long long) at);
-    at += size_of (cells, 8);
-    fprintf (f, "<DataArray type=\"UInt8\" Name=\"types\" format=\"appended\" offset=\"%llu\"/>\n</Cells>\n"
-             "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", (unsigned long long) at);
+    fputs ("</Points>\n<Cells>\n", f);
+    describe_cells (f, "Int64", "connectivity", &at, size_of (g->n, 8));
+    describe_cells (f, "Int64", "offsets", &at, size_of (cells, 8));
+    describe_cells (f, "UInt8", "types", &at, size_of (cells, 1));
+    fputs ("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", f);
 }
 
 /* n rows of `from` numbers as rows of `to` numbers, zeros behind them. */
@@ -328,8 +335,9 @@ static pg_status write_parts (const result *r, const char *path, long moment)
     if (status != PG_OK) return status;
     fprintf (f, VTK_FILE "<PUnstructuredGrid GhostLevel=\"0\">\n<PPointData>\n", "PUnstructuredGrid");
     for (size_t k = 0; k < q->nfield + 2; k++) describe (f, "PDataArray", &r->view[k], q->cloud->dim, NULL);
-    fputs ("</PPointData>\n<PPoints>\n<PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n"
-           "</PPoints>\n", f);
+    fputs ("</PPointData>\n<PPoints>\n", f);
+    describe (f, "PDataArray", &places, 3, NULL);
+    fputs ("</PPoints>\n", f);
     for (int part = 0; part < q->share->size; part++) {
         name_of (name, sizeof name, moment, q->share, part);
         fprintf (f, "<Piece Source=\"%s\"/>\n", name);

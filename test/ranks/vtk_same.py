@@ -25,7 +25,7 @@ def moment(folder, name):
                 sys.exit(f'{name}: two parts have one point')
             whole.update(rows)
         described = re.findall(r'Name="(\w+)"', data.decode())
-        if any(list(row) != ['x', *described] for row in whole.values()):
+        if any([*list(row)[1:], 'Points'] != described for row in whole.values()):
             sys.exit(f'{name}: parts have other fields than {described}')
         return whole, len(pieces)
     head, _, values = data.partition(b'<AppendedData encoding="raw">\n_')
@@ -35,8 +35,8 @@ def moment(folder, name):
         if width:
             number, = struct.unpack_from('=Q', values, at)
             numbers = array.array('d', values[at + 8:at + 8 + number])
-            columns[attribute(element, 'Name') or 'x'] = [tuple(numbers[i:i + width]) for i in range(0, len(numbers), width)]
-    x = columns.pop('x')
+            columns[attribute(element, 'Name')] = [tuple(numbers[i:i + width]) for i in range(0, len(numbers), width)]
+    x = columns.pop('Points')
     return {place: {'x': place, **{field: column[i] for field, column in columns.items()}} for i, place in enumerate(x)}, 1
 
 
