@@ -29,50 +29,115 @@ typedef struct {
     const double *value;
 } pg_field_view;
 
-/* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point -------------- */
-typedef struct pg_exodus pg_exodus;
-/* Creates a file for fields of these names, units and components at the points of a cloud; the
- * values are ignored. The point volumes are written as one more field unless the caller has
- * one of that name. */
-pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
-                            size_t nfield, const pg_field_view *fields /* values ignored */);
-/* What one of several parts of a result says of the whole (Nemesis, the parallel use of Exodus): which part
- * it is and of how many, the number of each of its points in the whole, from 0 and not without gaps (n);
- * points of the whole, and of them those of each block, 0 .. nblock - 1. Programs that read all parts,
- * result.e.SIZE.RANK, show them as one. */
+/* A face of a piece of a crack, with nodes of its own at its corners: in the plane a line of 2, in space a
+ * triangle of 3. Their places (m), the points whose values they take, and the time of the first moment at
+ * which it exists. */
+typedef struct { double x[3][3]; size_t point[3]; double since; } pg_crack_face;
+
+/* ---- writers: a catalogue of formats for the fields of a run ------------------------------------------- */
+/* A run writes all its fields at some moments: a moment has a number, from 0, a time, and the values of every
+ * field at that time. */
+/* What one of several processes that divide the points says of the whole: which part it has and of how many,
+ * and whether the parts are to become one when the run has ended. While a writer begins: the number of each
+ * of its points in the whole, from 0 and not without gaps (n); points of the whole, and of them those of each
+ * block, 0 .. nblock - 1. */
 typedef struct {
-    int     part, size;
+    int     part, size, joined;
     const int64_t *number;
     int64_t total;
     size_t  nblock;
     const int64_t *in_block;
-} pg_exodus_share;
-pg_status pg_exodus_create_part (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
-                                 size_t nfield, const pg_field_view *fields, const pg_exodus_share *share);
-/* FOLDER/result.e.SIZE.RANK, with as many digits of the rank as the size has. */
-void      pg_exodus_part_path (char *out, size_t size, const char *folder, int count, int part);
+} pg_field_share;
+/* What a writer is to write; it stays where it is until the writer is closed. folder: that of the result, one
+ * for all parts. cloud: the points of this process. field: names, units and components (nfield). share NULL:
+ * this process has all points. */
+typedef struct {
+    const char *folder, *title;
+    const pg_cloud *cloud;
+    size_t nfield;
+    const pg_field_view *field;
+    const pg_field_share *share;
+} pg_field_request;
+/* How far a writer was: moments that it had written, and what its `keep` said. */
+typedef struct { long moments, keep; } pg_field_marks;
+/* Can processes that divide the points use the writer? Not at all; each leaves a part of its own; or the
+ * parts become what one process would have written, where output.join asks for it. */
+enum { PG_PARTS_NONE, PG_PARTS_STAY, PG_PARTS_JOIN };
+/* An entry of the catalogue: src/output/NAME.c and one line in list.h. Functions marked (NULL) may be
+ * missing. Whatever ends the run, moments written so far can be read. Failures of files are PG_E_FILE with
+ * the path and the reason of the system. */
+typedef struct {
+    /* The value of `output.format`, what it is, the file that readers open, and PG_PARTS_... */
+    const char *name, *summary, *file;
+    int parts;
+    /* Begins: anew (at NULL), in the place of what an earlier run has left of this format; or goes on behind
+     * the moments of `at`, and removes what was written later. PG_E_FILE: some of these moments are not there
+     * any more; the folder stays as it is then. */
+    pg_status (*open) (void **self, const pg_field_request *request, const pg_field_marks *at);
+    /* Writes a moment: the fields of the request with values. Times ascend: s, in static runs load factors or
+     * numbers of steps. All processes that divide the points call. If it fails the moment is not there, and
+     * its number comes again. */
+    pg_status (*step) (void *self, long moment, double time, const pg_field_view *field);
+    /* What `open` needs, beside the number of moments, to go on behind those that are written: such as the
+     * length of a file in bytes. */
+    long      (*keep) (const void *self);
+    void      (*close) (void **self);
+    /* Waits until the system has put all moments on the disk (NULL: FOLDER/file is all there is). */
+    pg_status (*sync) (void *self);
+    /* The last moment is written: makes beside it what the finished result has more, on the disk: the n
+     * faces of cracks, or what parts become together; `open` can still go on as if it had not been called
+     * (NULL). */
+    pg_status (*prepare) (void *self, size_t n, const pg_crack_face *face);
+    /* done 1: the run cannot be gone on with any more, and what was prepared takes its place; 0: the run
+     * failed, and what was prepared is removed. It is called too where a run was killed behind its end (share
+     * NULL then), and where nothing was prepared (NULL). */
+    pg_status (*finish) (const char *folder, const pg_field_share *share, int done);
+    /* Removes from a folder what runs of this format have left, all of it (keep -1), or what does not belong
+     * to a run of one process (keep 0) or of `keep` parts (NULL: FOLDER/file is all there is). */
+    void      (*clear) (const char *folder, int keep);
+    /* Reads back, so that a run can go on among other processes, which divide the points anew and write all
+     * moments again: number and times of the moments in FOLDER; a field of one of them, at the points of part
+     * `part` of `size` (size 0: of all). To be freed with pg_free. (Both NULL: moments stay as the processes
+     * before have written them.) */
+    pg_status (*times) (const char *folder, int size, size_t *n, double **time);
+    pg_status (*read)  (const char *folder, int size, int part, long moment, const char *field, size_t *n,
+                        int *components, double **value);
+} pg_writer;
+/* The writer of that name, NULL: unknown; all names, separated by |. */
+const pg_writer *pg_writer_find  (const char *name);
+const char      *pg_writer_names (void);
+/* Removes from a folder what runs of other formats have left, and of `own` what `keep` says (its `clear`). */
+void             pg_writer_clear (const pg_writer *own, const char *folder, int keep);
+/* PG_E_USAGE: the fields in the folder have a format that cannot be read back. */
+pg_status        pg_writer_readable (const char *folder);
+/* Finishes a folder whose run was killed behind its end, whichever writer it had. PG_E_FILE. */
+pg_status        pg_writer_complete (const char *folder);
+
+/* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point -------------- */
+typedef struct pg_exodus pg_exodus;
+/* Creates a file for fields of these names, units and components at the points of a cloud; the
+ * values are ignored. The point volumes are written as one more field unless the caller has
+ * one of that name. share: the file is a part of a whole (Nemesis, the parallel use of Exodus): programs that
+ * read all parts, result.e.SIZE.RANK, show them as one; NULL: it is the whole. */
+pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
+                            size_t nfield, const pg_field_view *fields /* values ignored */,
+                            const pg_field_share *share);
 /* Makes FOLDER/result.e of its parts, the file that one process would have written, of the steps that all
  * parts have; the parts stay. Where there are no parts, or unless `again` a result.e that is newer than they
  * are, nothing is done. PG_E_FILE: a part is missing or is none of them, or none holds a step. */
 pg_status pg_exodus_join (const char *folder, int again);
-/* Removes the parts in a folder that do not belong to a result of `keep` parts (0: all of them). */
-void      pg_exodus_drop_parts (const char *folder, int keep);
 /* Opens a file in order to append to it: keeps the first `steps` steps, which end at byte
  * `bytes` as pg_exodus_size reported it, and cuts off what was written later. PG_E_FILE if
  * points or components differ or bytes are missing. */
 pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield,
                           const pg_field_view *fields, long steps, long bytes);
-/* A face of a piece of a crack, with nodes of its own at its corners: in the plane a line of 2, in space a
- * triangle of 3. Their places (m), the points whose values they take, and the time of the first step at which
- * it exists. */
-typedef struct { double x[3][3]; size_t point[3]; double since; } pg_exodus_piece;
 /* Adds n faces to a file that is complete, as a block of elements named "cracks" (BAR2, TRI3). Each takes the
  * displacements of its own side, so that a crack is shown open. The element variable `exists` is 1 from the
  * `since` of a face on, else 0. Cloud, title and fields are those of its creation. The result is a copy under
  * the name PATH.new, which is on the disk when the call returns; the file itself stays, and can be appended
  * to. n 0: there is no copy. */
 pg_status pg_exodus_prepare_pieces (const pg_exodus *file, const pg_cloud *cloud, const char *title, size_t n,
-                                    const pg_exodus_piece *piece);
+                                    const pg_crack_face *piece);
 /* The copy, where there is one, takes the place of the file PATH, to which nothing more can be appended;
  * drop: the copy is removed. */
 pg_status pg_exodus_commit_pieces (const char *path);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * results.h: the result folder of a run. It holds result.e (fields), history.csv (a row per
- * step), events.csv (a row per broken bond), report.json (what the run did), pictures, a copy
- * of the scene, and while the run is unfinished checkpoint.nc. Which fields, when, and which
- * columns is decided here; how files are written is output.h.
+ * results.h: the result folder of a run. It holds fields (result.e, or what output.format says),
+ * history.csv (a row per step), events.csv (a row per broken bond), report.json (what the run
+ * did), pictures, a copy of the scene, and while the run is unfinished checkpoint.nc. Which
+ * fields, when, and which columns is decided here; how files are written is output.h.
  *
  * A folder belongs to one run at a time and is never overwritten silently: an unfinished run,
  * and a scene that the user put there, are protected. Everything written so far is readable
@@ -56,8 +56,10 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
  * rows without a report of another scene), or overwrite a scene.yaml that no run put there, or
  * if `folder` is a file. */
 pg_status pg_result_may_open (const char *folder, const pg_scene *scene);
-/* 1: with this value of output.join ranks that divide so many points put their fields together at the end */
-int       pg_result_joins (const char *join, double points);
+/* 1: ranks that divide so many points put their fields together at the end (output.format, output.join) */
+int       pg_result_joins (const pg_scene *scene, double points);
+/* The file in the folder that has the fields. */
+const char *pg_result_fields (const pg_result *result);
 /* 1: there is a checkpoint that the run can go on from. */
 int       pg_result_kept (const pg_result *result);
 /* Removes the checkpoint and the rows of an unfinished run; the rest of the folder stays.

@@ -14,7 +14,6 @@ typedef struct {
     double     *peak, total;                           /* bytes of each rank (c->ranks); points of the body */
     pg_part_size *part;                                /* of each rank */
     int         divided, components, rank;             /* numbers a point exchanges; the rank of `largest` */
-    const char *join;                                  /* output.join */
     const char *occasion;                              /* when ghosts are exchanged */
     pg_statistics warned;                              /* of the built problem, as a run warns of it */
 } outlook;
@@ -58,13 +57,13 @@ done:
 }
 
 /* Memory of every rank, and which needs most. */
-static void foresee (outlook *o)
+static void foresee (outlook *o, const pg_scene *scene)
 {
     for (int r = 0; r < o->c->ranks; r++) o->total += o->part[r].owned;
     if (!o->divided) o->total = o->whole.points;
     for (int r = 0; r < o->c->ranks; r++) {
         pg_forecast f = o->divided ? pg_forecast_of_part (&o->whole, &o->part[r], o->total,
-                                                          r == 0 && pg_result_joins (o->join, o->total))
+                                                          r == 0 && pg_result_joins (scene, o->total))
                                    : pg_forecast_in_step (&o->whole, o->c->ranks);
         o->peak[r] = f.peak;
         if (r == 0 || f.peak > o->largest.peak) o->largest = f, o->rank = r;
@@ -194,9 +193,8 @@ int check_ranks (const command *c)
     o.components = o.whole.dim + o.whole.rotations;
     if (pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
         o.occasion = "a product with the stiffness matrix";
-    o.join = pg_scene_text (scene, "output.join");
     if (o.divided) PG_TRY (divide (&o, counted));
-    foresee (&o);
+    foresee (&o, scene);
     if (c->json) {
         PG_TRY (json_to_stdout (write_outlook, &o));
         goto done;

@@ -51,6 +51,12 @@ static const char *of_solver (const char *n)
     return t ? t->summary : "";
 }
 
+static const char *of_writer (const char *n)
+{
+    const pg_writer *t = pg_writer_find (n);
+    return t ? t->summary : "";
+}
+
 /* The catalogues that scenes choose from: the key of the scene, the names, the line of
  * description. */
 static const struct { const char *key; const char *(*names) (void); summary_of summary;
@@ -63,6 +69,7 @@ static const struct { const char *key; const char *(*names) (void); summary_of s
     { "failure.criterion", pg_criterion_names, of_criterion },
     { "solver.kind", pg_solver_names, of_solver },
     { "solver.linear", pg_linear_names, of_linear },
+    { "output.format", pg_writer_names, of_writer },
 };
 
 /* One block per catalogue, headed by the key of the scene that chooses from it. */

@@ -346,6 +346,7 @@ int pg_cli_plot (int argc, char **argv)
         if (q.sets || q.length > 0)
             PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
         if (!q.field) q.field = "damage";
+        PG_TRY (pg_writer_readable (q.directory));
         PG_TRY (pg_exodus_join (q.directory, 0));          /* of ranks whose run has not ended */
         PG_TRY (q.list ? pg_plot_list (&q) : pg_plot_field (&q));
     }

@@ -93,9 +93,9 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
     if (pg_rank_count () > 1 && !pg_ranks_now () && !r->factorizations)
         printf ("  warning: no matrix was factored: all %d ranks did the same work, one would do; "
                 "solver.linear: petsc factors on all of them\n", pg_rank_count ());
-    printf ("  results in %s: result.e history.csv events.csv%s report.json\n", pg_result_folder (result),
-            !pg_problem_grows (problem) ? "" : problem->dim == 3 ? " cracks.csv fronts.csv"
-                                                                 : " cracks.csv tips.csv");
+    printf ("  results in %s: %s history.csv events.csv%s report.json\n", pg_result_folder (result),
+            pg_result_fields (result), !pg_problem_grows (problem) ? "" : problem->dim == 3
+                                       ? " cracks.csv fronts.csv" : " cracks.csv tips.csv");
     for (size_t k = 0; k < pg_result_pictures (result); k++)
         printf ("  picture %s\n", pg_result_picture (result, k));
 }

@@ -10,6 +10,7 @@
  * from byte 4 of the file on; readers see the step only then. A step that cannot be written
  * whole is cut off again. */
 #include "disk.h"
+#include "entries.h"
 #include "exodus.h"
 #include "perigal/netcdf.h"
 #include <errno.h>
@@ -109,7 +110,7 @@ done:
 /* Writes the header under PATH.new and renames it, so that PATH appears whole or not at all.
  * The steps begin at the end of this file, whose length is therefore kept (f->begin). */
 static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *title,
-                              const pg_exodus_share *share)
+                              const pg_field_share *share)
 {
     pg_status status = PG_OK;
     char *fresh = NULL;
@@ -128,15 +129,9 @@ done:
     return status;
 }
 
-pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
-                            size_t nfield, const pg_field_view *fields)
-{
-    return pg_exodus_create_part (out, path, cloud, title, nfield, fields, NULL);
-}
-
 /* The request is checked before the file is touched. */
-pg_status pg_exodus_create_part (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
-                                 size_t nfield, const pg_field_view *fields, const pg_exodus_share *share)
+pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
+                            size_t nfield, const pg_field_view *fields, const pg_field_share *share)
 {
     pg_status status = PG_OK;
     pg_exodus *f = NULL;
@@ -287,7 +282,7 @@ done:
  * */
 /* Copies a record: behind the n values of a variable those of the corners of the pieces, taken from their
  * points, and behind all variables whether each piece exists. Values stay in the byte order of the file. */
-static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_piece *piece,
+static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_crack_face *piece,
                                double *old, double *new)
 {
     pg_status status = PG_OK;
@@ -315,7 +310,7 @@ done:
 }
 
 /* All records into the new file, which is opened at the end of its header. */
-static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_piece *piece)
+static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_crack_face *piece)
 {
     pg_status status = PG_OK;
     double *old = NULL, *new = NULL;
@@ -343,7 +338,7 @@ done:
 }
 
 pg_status pg_exodus_prepare_pieces (const pg_exodus *f, const pg_cloud *cloud, const char *title, size_t n,
-                                    const pg_exodus_piece *piece)
+                                    const pg_crack_face *piece)
 {
     pg_status status = PG_OK;
     pg_exodus wide = { .file = -1 };
@@ -401,3 +396,127 @@ void pg_exodus_close (pg_exodus **file)
     pg_free (f);
     *file = NULL;
 }
+
+/* ---- the entry of the catalogue ------------------------------------------------------------------------ */
+/* The file of the whole or of a part. */
+static void path_of (char *out, size_t size, const char *folder, const pg_field_share *share)
+{
+    if (share) pg_exodus_part_path (out, size, folder, share->size, share->part);
+    else snprintf (out, size, "%s/result.e", folder);
+}
+
+/* A result, which needs its request again when it is complete. */
+typedef struct { pg_exodus *file; const pg_field_request *request; } result;
+
+static void close_result (void **self)
+{
+    result *r = *self;
+    if (!r) return;
+    pg_exodus_close (&r->file);
+    pg_free (r);
+    *self = NULL;
+}
+
+static pg_status open_result (void **self, const pg_field_request *q, const pg_field_marks *at)
+{
+    pg_status status = PG_OK;
+    result *r = NULL;
+    char path[4096];
+    path_of (path, sizeof path, q->folder, q->share);
+    PG_ALLOC (r, 1);
+    r->request = q;
+    PG_TRY (at ? pg_exodus_open (&r->file, path, q->cloud, q->nfield, q->field, at->moments, at->keep)
+               : pg_exodus_create (&r->file, path, q->cloud, q->title, q->nfield, q->field, q->share));
+done:
+    if (status != PG_OK) pg_free (r), r = NULL;
+    *self = r;
+    return status;
+}
+
+static pg_status write_moment (void *self, long moment, double time, const pg_field_view *field)
+{
+    (void) moment;
+    return pg_exodus_write (((result *) self)->file, time, field);
+}
+
+static long keep_length (const void *self)
+{
+    long steps, bytes;
+    pg_exodus_size (((const result *) self)->file, &steps, &bytes);
+    return bytes;
+}
+
+static pg_status sync_result (void *self) { return pg_exodus_sync (((result *) self)->file); }
+
+/* Rank 0 joins the parts, which stay. */
+static pg_status prepare_result (void *self, size_t n, const pg_crack_face *face)
+{
+    const result *r = self;
+    const pg_field_request *q = r->request;
+    if (!q->share) return pg_exodus_prepare_pieces (r->file, q->cloud, q->title, n, face);
+    return q->share->joined && q->share->part == 0 ? pg_exodus_join (q->folder, 1) : PG_OK;
+}
+
+/* Each rank removes its part. Beside a whole there may be parts of ranks that were killed before they did. */
+static pg_status finish_result (const char *folder, const pg_field_share *share, int done)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    path_of (path, sizeof path, folder, share);
+    if (!done) pg_exodus_drop_pieces (path);
+    else if (share && share->joined) remove (path);
+    else if (!share) {
+        PG_TRY (pg_exodus_commit_pieces (path));
+        if (access (path, F_OK) == 0) pg_exodus_drop_parts (folder, 0);
+    }
+done:
+    return status;
+}
+
+static void clear_results (const char *folder, int keep)
+{
+    static const char *const whole[] = { "result.e", "result.e.new", "result.e.whole" };
+    char path[4096];
+    pg_exodus_drop_parts (folder, keep > 0 ? keep : 0);
+    for (size_t k = 0; keep != 0 && k < sizeof whole / sizeof *whole; k++) {
+        snprintf (path, sizeof path, "%s/%s", folder, whole[k]);
+        remove (path);
+    }
+}
+
+static pg_status read_times (const char *folder, int size, size_t *n, double **time)
+{
+    const pg_field_share first = { .size = size };
+    pg_cloud cloud;
+    char path[4096];
+    path_of (path, sizeof path, folder, size ? &first : NULL);
+    pg_status status = pg_exodus_points (path, &cloud, n, time);
+    pg_cloud_clear (&cloud);
+    return status;
+}
+
+static pg_status read_moment (const char *folder, int size, int part, long moment, const char *field,
+                              size_t *n, int *components, double **value)
+{
+    const pg_field_share one = { .size = size, .part = part };
+    char path[4096];
+    path_of (path, sizeof path, folder, size ? &one : NULL);
+    return pg_exodus_read (path, field, (int) moment, n, components, value);
+}
+
+const pg_writer pg_writer_exodus = {
+    .name = "exodus",
+    .summary = "result.e, Exodus in classic netCDF: one file, which this program reads as well",
+    .file = "result.e",
+    .parts = PG_PARTS_JOIN,
+    .open = open_result,
+    .step = write_moment,
+    .keep = keep_length,
+    .close = close_result,
+    .sync = sync_result,
+    .prepare = prepare_result,
+    .finish = finish_result,
+    .clear = clear_results,
+    .times = read_times,
+    .read = read_moment,
+};

@@ -22,10 +22,17 @@ typedef struct {
     /* Lines, two nodes each behind those of the points, as a block of their own; 0: none. The records then
      * end with one number for each piece, 1 if it exists. */
     size_t          npiece;
-    const pg_exodus_piece *piece;
+    const pg_crack_face *piece;
     /* Of a part of a whole; NULL: it is one. */
-    const pg_exodus_share *share;
+    const pg_field_share *share;
 } exodus_layout;
 /* Writes the file to its path, including all that does not change during a run. */
 pg_status pg_exodus_layout_write (const exodus_layout *layout);
+/* The suffix of component k of a field: "_x", "_xy", "_7", "" of the only one. */
+void      pg_exodus_suffix (int dim, int components, int k, char *text, size_t size);
+/* ---- exodus_join.c: parts ------------------------------------------------------------------------------ */
+/* FOLDER/result.e.SIZE.RANK, with as many digits of the rank as the size has. */
+void      pg_exodus_part_path  (char *out, size_t size, const char *folder, int count, int part);
+/* Removes the parts in a folder that do not belong to a result of `keep` parts (0: all of them). */
+void      pg_exodus_drop_parts (const char *folder, int keep);
 #endif

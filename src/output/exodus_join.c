@@ -246,7 +246,7 @@ static pg_status write_whole (const parts *p)
             pg_exodus_part_path (first, sizeof first, p->folder, p->size, 0);
             PG_TRY (pg_exodus_unit (first, p->name[k], view[k].unit));
         }
-        if (!file) PG_TRY (pg_exodus_create (&file, fresh, &p->all, p->title, p->nfield, view));
+        if (!file) PG_TRY (pg_exodus_create (&file, fresh, &p->all, p->title, p->nfield, view, NULL));
         PG_TRY (pg_exodus_write (file, p->time[s], view));
     }
     if (!file) PG_FAIL (PG_E_FILE, "%s: the parts of result.e hold no step yet", p->folder);

@@ -40,9 +40,8 @@ typedef struct {
 static const char *const node_status[] = { "int_n_stat", "int_e_stat", "bor_n_stat", "ext_n_stat",
                                            "bor_e_stat" };
 
-/* The suffix of component k: "_x", "_xy", "_7". Exodus readers group names with these suffixes
- * into vectors and into symmetric tensors in Voigt order. */
-static void part_suffix (int dim, int components, int k, char *text, size_t size)
+/* Exodus readers group names with these suffixes into vectors and into symmetric tensors in Voigt order. */
+void pg_exodus_suffix (int dim, int components, int k, char *text, size_t size)
 {
     static const char *const axis[] = { "x", "y", "z" }, *const plane[] = { "xx", "yy", "xy" };
     static const char *const solid[] = { "xx", "yy", "zz", "xy", "yz", "zx" };
@@ -128,7 +127,7 @@ static void define_block (writer *w, size_t k, size_t m, size_t each, const char
  * whole of nodes and elements (those of one point are the same). No node is on two parts. */
 static void define_share (writer *w, int nodes)
 {
-    const pg_exodus_share *s = w->l->share;
+    const pg_field_share *s = w->l->share;
     const float version = 2.6f;
     int elements = netcdf_dimension_of (w->file, "num_elem"), file;
     netcdf_define_numbers (w->file, -1, "nemesis_file_version", PG_NC_FLOAT, 1, &version);
@@ -299,7 +298,7 @@ done:
 static pg_status put_maps (writer *w)
 {
     pg_status status = PG_OK;
-    const pg_exodus_share *s = w->l->share;
+    const pg_field_share *s = w->l->share;
     size_t at = 0;
     for (size_t i = 0; i < w->n; i++) w->node[i] = w->large ? 0 : (int) s->number[i] + 1;
     if (!w->large) PG_TRY (put (w, "node_num_map", w->n, w->node));
@@ -316,7 +315,7 @@ done:
 static pg_status put_share (writer *w)
 {
     pg_status status = PG_OK;
-    const pg_exodus_share *s = w->l->share;
+    const pg_field_share *s = w->l->share;
     int zero = 0;
     PG_TRY (put_maps (w));
     PG_TRY (put (w, "nem_ftype", 1, &zero));
@@ -340,7 +339,7 @@ static pg_status put_field_names (writer *w)
     size_t k = 0;
     for (size_t v = 0; v < w->l->nfield; v++)
         for (int c = 0; c < w->l->field[v].components; c++, k++) {
-            part_suffix (w->dim, w->l->field[v].components, c, part, sizeof part);
+            pg_exodus_suffix (w->dim, w->l->field[v].components, c, part, sizeof part);
             snprintf (name, sizeof name, "%s%s", w->l->field[v].name, part);
             PG_TRY (put_name (w, "name_nod_var", k, name));
         }
@@ -353,7 +352,7 @@ done:
 static pg_status find_blocks_of_whole (writer *w)
 {
     pg_status status = PG_OK;
-    const pg_exodus_share *s = w->l->share;
+    const pg_field_share *s = w->l->share;
     size_t room = w->n + 1;
     PG_GROW (w->node, room, s->nblock + 1);
     room = w->n;

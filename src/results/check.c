@@ -232,6 +232,7 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     if (count >= MOST_PICTURES)
         pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);
     check_estimate (scene, problem);
+    pg_result_fields_check (scene);
     pg_result_averages_check (scene, problem);
     pg_result_paths_check (scene, problem);
     if (pg_result_tips_check (scene, problem) != PG_OK) return PG_E_MEMORY;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks that have grown as lines and triangles of result.e: both faces of every piece, so that programs that
- * draw the body displaced show the crack open. The corner of a face takes the displacement (and all other
- * fields) of the nearest point that sees it: no crack lies between. From cracks.csv is known since when a
- * piece exists.
+ * Cracks that have grown as lines and triangles beside the fields: both faces of every piece, so that
+ * programs that draw the body displaced show the crack open. The corner of a face takes the displacement (and
+ * all other fields) of the nearest point that sees it: no crack lies between. From cracks.csv is known since
+ * when a piece exists.
  *
  * In space the cracks of the scene are polygons and discs, which are drawn as fans of triangles about their
  * middle. */
@@ -32,7 +32,7 @@ static int hidden (void *context, const double *place, size_t point)
 /* The face of a piece on the side that the normal shows to (side 1) or on the other (-1). corner: its places,
  * dim x dim. */
 static void face_of (const sight *s, const pg_nearest *near, const double *corner, const double *normal,
-                     int side, pg_exodus_piece *out)
+                     int side, pg_crack_face *out)
 {
     sight all = *s;
     size_t dim = (size_t) s->problem->dim;
@@ -54,7 +54,7 @@ static void face_of (const sight *s, const pg_nearest *near, const double *corne
 }
 
 /* A list of pieces with room for more. */
-typedef struct { pg_exodus_piece *piece; size_t n, capacity; } pieces;
+typedef struct { pg_crack_face *piece; size_t n, capacity; } pieces;
 
 /* Both faces of a line or a triangle. */
 static pg_status put_faces (pieces *all, const sight *s, const pg_nearest *near, const double *corner,
@@ -63,8 +63,8 @@ static pg_status put_faces (pieces *all, const sight *s, const pg_nearest *near,
     pg_status status = PG_OK;
     PG_GROW (all->piece, all->capacity, all->n + 2);
     for (int side = -1; side <= 1; side += 2) {
-        pg_exodus_piece *out = &all->piece[all->n++];
-        *out = (pg_exodus_piece) { .since = since };
+        pg_crack_face *out = &all->piece[all->n++];
+        *out = (pg_crack_face) { .since = since };
         face_of (s, near, corner, normal, side, out);
     }
 done:
@@ -92,7 +92,7 @@ done:
     return status;
 }
 
-/* Time in result.e since when each piece exists, from the rows of cracks.csv; pieces without one have split
+/* Time of the fields since when each piece exists, from the rows of cracks.csv; pieces without one have split
  * from a crack of the scene. */
 static pg_status read_since (const pg_result *r, size_t n, double *since)
 {
@@ -139,13 +139,14 @@ done:
     return status;
 }
 
-pg_status pg_result_paths_lines (pg_result *r, const pg_state *state)
+pg_status pg_result_paths_faces (const pg_result *r, const pg_state *state, size_t *n, pg_crack_face **face)
 {
     pg_status status = PG_OK;
     pg_nearest *near = NULL;
     pieces all = { 0 };
     double *since = NULL, last = 0;
     const pg_cracks *cracks = pg_state_cracks (r->problem, state);
+    *n = 0, *face = NULL;
     if (!r->grows || cracks->n == 0) return PG_OK;
     sight s = { r->problem, cracks };
     PG_ALLOC (since, cracks->n);
@@ -156,7 +157,7 @@ pg_status pg_result_paths_lines (pg_result *r, const pg_state *state)
         last = fmax (last, since[k]);
     }
     if (state->surfaces) PG_TRY (put_fronts (&all, &s, near, state->surfaces, last));
-    PG_TRY (pg_exodus_prepare_pieces (r->file, &r->problem->cloud, r->problem->title, all.n, all.piece));
+    *n = all.n, *face = all.piece, all.piece = NULL;
 done:
     pg_nearest_free (&near);
     pg_free (all.piece), pg_free (since);

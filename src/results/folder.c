@@ -335,28 +335,25 @@ done:
 }
 
 /* Folders of ranks are numbered without gaps. */
-void pg_result_drop_ranks (const char *folder)
+void pg_result_drop_earlier (const pg_result *r)
 {
     char path[4096];
     struct stat s;
     for (int rank = pg_rank_count ();; rank++) {
-        snprintf (path, sizeof path, "%s/ranks/%d", folder, rank);
+        snprintf (path, sizeof path, "%s/ranks/%d", r->folder, rank);
         if (stat (path, &s) != 0) break;
         pg_folder_remove (path);
     }
-    snprintf (path, sizeof path, "%s/ranks", folder);
+    snprintf (path, sizeof path, "%s/ranks", r->folder);
     if (pg_rank_count () == 1) rmdir (path);
-    pg_exodus_drop_parts (folder, pg_ranks_now () ? pg_rank_count () : 0);
+    pg_writer_clear (r->writer, r->folder, r->request.share ? r->share.size : 0);
 }
 
-/* Ranks that were killed one by one may have left gaps between the numbers. Where fields stay in parts there
- * is no result.e. */
+/* Ranks that were killed one by one may have left gaps between the numbers. */
 void pg_result_drop_finished_ranks (const char *folder)
 {
     char path[4096];
     const struct dirent *entry;
-    snprintf (path, sizeof path, "%s/result.e", folder);
-    if (access (path, F_OK) == 0) pg_exodus_drop_parts (folder, 0);
     snprintf (path, sizeof path, "%s/ranks", folder);
     DIR *ranks = opendir (path);
     if (!ranks) return;

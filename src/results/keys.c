@@ -3,13 +3,20 @@
  * the text of the documentation. Which names of fields and sets are allowed depends on the
  * dimension and on the method; check.c, average.c and crack_tips.c test that when the problem
  * is known. */
+#include "perigal/output.h"
 #include "perigal/scene.h"
 
 static const pg_key keys[] = {
     { "output.fields", PG_NAMES, NULL, "[0, 1000]", "[displacement, damage, stress]",
       "displacement|rotation|velocity|damage|stress|strain|error_estimate|nodal_force", NULL, NULL,
-      "Fields of result.e; rotation: of points, gmpd only; error_estimate: of the stress, by recovery; "
+      "Fields that are written; rotation: of points, gmpd only; error_estimate: of the stress, by recovery; "
       "nodal_force: internal force of every point, at rest what loads and supports exert on it." },
+    { .path = "output.format",
+      .kind = PG_NAME,
+      .fallback = PG_FIRST_CHOICE,
+      .choices_of = pg_writer_names,
+      .doc = "Format of the fields; `perigal list` says what each of these is. `perigal plot` and `perigal "
+             "compare` read result.e only." },
     { "output.pictures", PG_NAMES, NULL, "[0, 100]", "[damage]", NULL, NULL, NULL,
       "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx). Of a mesh: on its "
       "elements, while no bond is broken. []: none, and no charts either." },
@@ -39,7 +46,7 @@ static const pg_key keys[] = {
       "Static runs: estimated error of the last stress in report.json (stress recovery; takes less time than "
       "one assembly)." },
     { "output.stages", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
-      "All pictures also at every stage written to result.e, as stages/NAME_0007.png for its step 7." },
+      "All pictures also each time fields are written, as stages/NAME_0007.png for the step 7 of these." },
     { "output.magnify", PG_NUMBER, "1", "[0, inf)", "0", NULL, NULL, NULL,
       "Pictures show the body deformed by this multiple of the displacement." },
     { "output.at.events", PG_INTEGER, NULL, "[1, 1000000000]", "", NULL, NULL, NULL,
@@ -52,7 +59,8 @@ static const pg_key keys[] = {
       "interrupted or fails." },
     { "output.join", PG_NAME, NULL, NULL, "auto", "auto|yes|no", NULL, NULL,
       "Ranks that divide the body: whether rank 0 makes result.e of the parts when the run has ended, for "
-      "which it has to hold the values of all points. auto: up to 2e7 points. One process ignores it." },
+      "which it has to hold the values of all points. auto: up to 2e7 points. One process ignores it, and "
+      "parts of another format stay." },
     { "output.stress_intensity", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
       "Energy release rate J and stress intensity factors of every tip of a crack, as columns tip.N.J ... of "
       "history.csv and in tips.csv; in 3D of every vertex of its front, as columns front.N.J_max and in "

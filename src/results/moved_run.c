@@ -123,15 +123,14 @@ done:
     return status;
 }
 
-/* Ranks keep copies of the tables, those that hold the whole body of its fields as well. */
-static pg_status copy_tables (const pg_result *r, const parts_kept *w, int whole)
+/* Ranks keep copies of the tables. */
+static pg_status copy_tables (const pg_result *r, const parts_kept *w)
 {
     pg_status status = PG_OK;
     static const char *const name[] = { "history.csv", "events.csv", "cracks.csv", "tips.csv", "fronts.csv",
-                                        "contact.csv", "result.e" };
+                                        "contact.csv" };
     char from[4096], to[4096];
-    size_t n = sizeof name / sizeof *name;
-    for (size_t k = 0; k < n - !whole && pg_rank () > 0; k++) {
+    for (size_t k = 0; k < sizeof name / sizeof *name && pg_rank () > 0; k++) {
         snprintf (from, sizeof from, "%s/%s", w->folder, name[k]);
         snprintf (to, sizeof to, "%s/%s", r->folder, name[k]);
         PG_TRY (copy_file (to, from));
@@ -140,46 +139,39 @@ done:
     return status;
 }
 
-/* Fields so far, of the points that are owned now, in a file of their own. */
+/* Fields so far, of the points that are owned now, are written anew, where their format asks for it. */
 static pg_status divide_fields (pg_result *r, const parts_kept *w)
 {
     pg_status status = PG_OK;
-    const result_marks *at = &r->done;
-    char path[4096];
-    pg_cloud cloud = { 0 };
-    size_t nstep;
+    const pg_writer *writer = r->writer;
+    const result_marks at = r->done;
+    size_t n;
     double *time = NULL;
-    PG_TRY (pg_result_create_fields (r));
-    if (w->divided) pg_exodus_part_path (path, sizeof path, w->folder, w->count, 0);
-    else snprintf (path, sizeof path, "%s/result.e", w->folder);
-    PG_TRY (pg_exodus_points (path, &cloud, &nstep, &time));
-    if ((long) nstep < at->steps)
-        PG_FAIL (PG_E_FILE, "%s has %zu steps, %ld are missing: it was changed since", path, nstep,
-                 at->steps - (long) nstep);
-    for (long s = 0; s < at->steps; s++) {
+    PG_TRY (pg_result_fields_open (r, writer->read ? NULL : &at));
+    if (!writer->read || !r->output) goto done;
+    PG_TRY (writer->times (w->folder, w->divided ? w->count : 0, &n, &time));
+    if ((long) n < at.moments)
+        PG_FAIL (PG_E_FILE, "%s: %s has %zu moments, %ld are missing: it was changed since", w->folder,
+                 writer->file, n, at.moments - (long) n);
+    for (long m = 0; m < at.moments; m++) {
         for (size_t k = 0; k < r->nfield; k++)
-            PG_TRY (parts_field (w, w->divided, (int) s, r->field[k].name, (size_t) r->field[k].components,
+            PG_TRY (parts_field (w, writer, m, r->field[k].name, (size_t) r->field[k].components,
                                  r->value[k]));
-        PG_TRY (pg_exodus_write (r->file, time[s], r->field));
+        PG_TRY (writer->step (r->output, m, time[m], r->field));
     }
-    r->exodus_steps = at->steps;
-    r->next_broken = at->next_broken, r->last_written = (int) at->last_written, r->stamp = at->stamp,
-    r->time = at->time;
 done:
-    pg_cloud_clear (&cloud), pg_free (time);
+    resumed_marks (r, &at);
+    pg_free (time);
     return status;
 }
 
 /* What those before have left goes when all have checkpoints of their own. */
-static pg_status drop_others (const pg_result *r, const parts_kept *w)
+static pg_status drop_others (const pg_result *r)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_ranks_agree (PG_OK));
-    if (pg_rank () == 0) {
-        pg_result_drop_ranks (w->folder);
-        if (pg_ranks_now () && !w->divided) status = pg_result_remove (r, "result.e");
-    }
-    PG_TRY (pg_ranks_agree (status));
+    if (pg_rank () == 0) pg_result_drop_earlier (r);
+    PG_TRY (pg_ranks_agree (PG_OK));
 done:
     return status;
 }
@@ -228,7 +220,7 @@ pg_status moved_resume (pg_result *r, resumed *m, parts_kept *w)
     parts_path (path, sizeof path, w->folder, 0, w->fresh[0]);
     m->path = path, m->anywhere = 1;
     PG_TRY (pg_ranks_agree (accept (r, m, w)));
-    PG_TRY (pg_ranks_agree (copy_tables (r, w, whole)));
+    PG_TRY (pg_ranks_agree (copy_tables (r, w)));
     PG_TRY (pg_ranks_agree (whole ? pg_checkpoint_read (path, resumed_all, m) : take (r, m, w)));
     if (whole) {
         PG_TRY (resumed_go_on (r, m));
@@ -243,7 +235,7 @@ pg_status moved_resume (pg_result *r, resumed *m, parts_kept *w)
         r->earlier = m->seconds;
     }
     PG_TRY (pg_result_checkpoint (r, m->state));
-    PG_TRY (drop_others (r, w));
+    PG_TRY (drop_others (r));
 done:
     return status;
 }

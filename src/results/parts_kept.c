@@ -363,25 +363,22 @@ pg_moved parts_moved (parts_kept *w)
                         .points = points, .unknowns = unknowns, .bonds = bonds };
 }
 
-/* Fields of a step of the files of the parts (divided 0: of the whole), of the points owned here. */
-pg_status parts_field (const parts_kept *w, int divided, int step, const char *name, size_t components,
-                       double *value)
+pg_status parts_field (const parts_kept *w, const pg_writer *writer, long moment, const char *name,
+                       size_t components, double *value)
 {
     pg_status status = PG_OK;
     double *one = NULL;
-    char path[4096];
     for (int k = 0; k < w->count; k++) {
         size_t n, m = 0;
         int found;
         if (!w->used[k]) continue;
-        if (divided) pg_exodus_part_path (path, sizeof path, w->folder, w->count, k);
-        else snprintf (path, sizeof path, "%s/result.e", w->folder);
         pg_free (one), one = NULL;
-        PG_TRY (pg_exodus_read (path, name, step, &n, &found, &one));
-        if ((size_t) found != components) PG_FAIL (PG_E_FILE, "%s: %s has other components", path, name);
+        PG_TRY (writer->read (w->folder, w->divided ? w->count : 0, k, moment, name, &n, &found, &one));
+        if ((size_t) found != components) PG_FAIL (PG_E_FILE, "%s: %s has other components", w->folder, name);
         for (size_t i = 0; i < w->problem->cloud.n; i++) {
             if (!owned (w->problem, i)) continue;
-            if (w->file[i] == k && w->among[i] >= n) PG_FAIL (PG_E_FILE, "%s has too few points", path);
+            if (w->file[i] == k && w->among[i] >= n)
+                PG_FAIL (PG_E_FILE, "%s: %s has too few points", w->folder, name);
             if (w->file[i] == k)
                 memcpy (value + m * components, one + w->among[i] * components, components * sizeof *one);
             m++;

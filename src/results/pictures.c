@@ -155,7 +155,7 @@ static void draw_all (pg_result *r, const pg_state *state, const char *within, c
     pg_free (more);
 }
 
-/* The number in the name is that of the step that result.e has just got. */
+/* The number in the name is that of the moment whose fields have just been written. */
 void pg_result_draw_stage (pg_result *r, const pg_state *state)
 {
     char path[4096], suffix[32];
@@ -163,7 +163,7 @@ void pg_result_draw_stage (pg_result *r, const pg_state *state)
     pg_status status = pg_folder_make (path);
     miss_picture (r, path, status);
     if (status != PG_OK) return;
-    snprintf (suffix, sizeof suffix, "_%04ld", r->exodus_steps - 1);
+    snprintf (suffix, sizeof suffix, "_%04ld", r->moments - 1);
     draw_all (r, state, "stages/", suffix, 0);
 }
 

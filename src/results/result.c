@@ -79,7 +79,7 @@ done:
     return status;
 }
 
-/* What new and resumed results have in common. length is that of a step in the time of result.e:
+/* What new and resumed results have in common. length is that of a step in the time of fields:
  * quasi-static loads run from 0 to 1, others to solver.end in s. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver)
@@ -98,12 +98,11 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
     PG_TRY (pg_result_tips_read (r, scene));
     pg_result_paths_read (r, scene);
     r->counting = pg_scene_bool (scene, "output.crack_size");
-    r->in_parts = pg_result_in_parts (r, pg_scene_text (scene, "output.join"));
     PG_TRY (pg_result_network_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
     pg_result_curve_choose (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
-    PG_TRY (pg_result_count_blocks (r));
+    PG_TRY (pg_result_fields_prepare (r, scene));
 done:
     return status;
 }
@@ -140,12 +139,11 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_folder_make (folder));
     PG_TRY (pg_result_lock (folder, &r->lock));
     PG_TRY (pg_result_may_open (folder, scene));
-    if (pg_rank () == 0) pg_result_drop_ranks (folder);
+    if (pg_rank () == 0) pg_result_drop_earlier (r);
     PG_TRY (pg_result_remove (r, "report.json"));
-    if (r->in_parts && pg_rank () == 0) PG_TRY (pg_result_remove (r, "result.e"));     /* of an earlier run */
     PG_TRY (pg_result_copy_scene (folder, scene));
     PG_TRY (pg_result_history_create (r, NULL));
-    PG_TRY (pg_result_create_fields (r));
+    PG_TRY (pg_result_fields_open (r, NULL));
     r->done = pg_result_marks_now (r);
     r->seconds += pg_seconds () - t0;
     *out = r;
@@ -160,6 +158,8 @@ result_marks pg_result_marks_now (const pg_result *r)
 {
     result_marks m = { .history = pg_table_rows (r->history),
                        .events = pg_table_rows (r->events),
+                       .moments = r->moments,
+                       .keep = r->output ? r->writer->keep (r->output) : 0,
                        .next_broken = r->next_broken,
                        .points = (long) r->npoint,
                        .last_written = r->last_written,
@@ -169,13 +169,11 @@ result_marks pg_result_marks_now (const pg_result *r)
                        .contact = r->contact ? pg_table_rows (r->contact) : 0,
                        .stamp = r->stamp,
                        .time = r->time };
-    pg_exodus_size (r->file, &m.steps, &m.bytes);
     return m;
 }
 
-/* Computes all fields of the state and appends a step to result.e. Times must ascend in
- * Exodus, so a second writing at the same time moves on to the next double. */
-static pg_status write_fields (pg_result *r, const pg_state *state, double time)
+/* All fields of the state, of the points that this process owns. */
+static pg_status compute_fields (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     void *self;
@@ -186,10 +184,18 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
         PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
         pg_result_keep_own (r, (size_t) r->field[k].components, r->value[k]);
     }
-    if (r->exodus_steps > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
-    PG_TRY (pg_exodus_write (r->file, time, r->field));
-    r->exodus_steps++;
-    r->time = time;
+done:
+    return status;
+}
+
+/* Times of fields ascend, so a second writing at the same time moves on to the next double. All ranks
+ * call. */
+static pg_status write_fields (pg_result *r, const pg_state *state, double time)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_ranks_agree (compute_fields (r, state)));
+    if (r->moments > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
+    PG_TRY (pg_result_fields_write (r, time));
     if (r->stages && !pg_ranks_now ()) pg_result_draw_stage (r, state);
 done:
     return status;
@@ -234,7 +240,6 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
     r->now = pg_result_marks_now (r);
     PG_TRY (share_has_broken (r, state, &r->last_written));
     if (r->last_written) status = write_fields (r, state, time_within (r));
-    status = pg_ranks_agree (status);
     if (status == PG_OK) r->now = pg_result_marks_now (r);
     else r->last_written = 0, r->next_broken = next;
 done:
@@ -242,8 +247,7 @@ done:
     return status;
 }
 
-/* Stages of the refused step stay in result.e, which then does not end with the state of the
- * last step. */
+/* The fields of a refused step stay, so that the last ones are not those of the last step then. */
 void pg_result_refused (pg_result *r)
 {
     r->rounds = 0;
@@ -267,7 +271,7 @@ pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *st
     int share;
     PG_TRY (share_has_broken (r, state, &share));
     due |= share || step->level;
-    if (due) PG_TRY (pg_ranks_agree (write_fields (r, state, step->stamp)));
+    if (due) PG_TRY (write_fields (r, state, step->stamp));
     r->last_written = due;
     r->done = pg_result_marks_now (r);
     r->is_pending = 0;
@@ -300,7 +304,7 @@ static pg_status sync_all (const pg_result *r)
     char path[4096];
     if (!pg_result_kept (r)) return PG_OK;
     PG_TRY (pg_result_sync_rows (r));
-    PG_TRY (pg_exodus_sync (r->file));
+    PG_TRY (pg_result_fields_sync (r));
     if (pg_rank () == 0) PG_TRY (pg_file_sync (pg_result_path (r, "report.json", path, sizeof path)));
     PG_TRY (pg_file_sync (r->folder));
 done:
@@ -308,8 +312,8 @@ done:
 }
 
 /* The run is finished when the checkpoint of rank 0 is gone; parts of fields, which going on would need, go
- * with those of the others. result.e gets the faces of its cracks after that, since nothing could be appended
- * to it any more: where this did not come to pass, pg_result_complete does it. */
+ * with those of the others, and what the finished fields have more takes its place, since no moment could be
+ * appended to them any more: where this did not come to pass, pg_result_complete does it. */
 static pg_status close_run (const pg_result *r)
 {
     pg_status status = PG_OK;
@@ -319,9 +323,7 @@ static pg_status close_run (const pg_result *r)
     if (pg_rank () == 0) status = pg_result_remove (r, "checkpoint.nc");
     PG_TRY (pg_ranks_agree (status));
     if (pg_rank () > 0) status = pg_result_remove (r, "checkpoint.nc");
-    pg_result_fields_path (r, path, sizeof path);
-    if (pg_ranks_now () && !r->in_parts) remove (path);
-    else if (status == PG_OK) status = pg_exodus_commit_pieces (path);
+    if (status == PG_OK) status = pg_result_fields_finish (r, 1);
     PG_TRY (pg_ranks_agree (status));
 done:
     return status;
@@ -330,11 +332,9 @@ done:
 pg_status pg_result_complete (const char *folder)
 {
     pg_status status = PG_OK;
-    char path[4096];
     int lock = 0;
     PG_TRY (pg_result_lock (folder, &lock));
-    snprintf (path, sizeof path, "%s/result.e", folder);
-    PG_TRY (pg_exodus_commit_pieces (path));
+    PG_TRY (pg_writer_complete (folder));
     pg_result_drop_finished_ranks (folder);
 done:
     pg_result_unlock (folder, &lock);
@@ -348,28 +348,24 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    char path[4096];
     /* ended before anything was done: pictures would only show the body as the scene describes it */
     int nothing = failure && state->step == 0 && r->rounds == 0;
     PG_TRY (pg_solver_share_report (r->solver));
-    if (!r->last_written)
-        PG_TRY (pg_ranks_agree (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp)));
+    if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
     pg_result_curve_read (r);
     PG_TRY (pg_result_crack_measure (r, state));
     if (!nothing && !pg_ranks_now ()) pg_result_draw (r, state);
     PG_TRY (pg_result_measure (r, state));
-    if (!failure) PG_TRY (pg_result_paths_lines (r, state));
     if (!failure) PG_TRY (estimate (r, state));
-    if (!failure) PG_TRY (pg_result_join_fields (r));
+    if (!failure) PG_TRY (pg_result_fields_complete (r, state));
 done:
     r->seconds += pg_seconds () - t0;
     /* With what finishing took: fields, pictures, errors against the reference, the estimate. */
     pg_status written = pg_result_json (r, state, failure, search, r->earlier + total + pg_seconds () - t0);
     status = pg_ranks_agree (status == PG_OK ? written : status);
     if (status == PG_OK && !failure) return close_run (r);
-    pg_result_fields_path (r, path, sizeof path);
-    pg_exodus_drop_pieces (path);
+    pg_result_fields_finish (r, 0);
     return status;
 }
 
@@ -378,7 +374,7 @@ void pg_result_free (pg_result **result)
 {
     pg_result *r = *result;
     if (!r) return;
-    pg_exodus_close (&r->file);
+    if (r->output) r->writer->close (&r->output);
     pg_table_close (&r->history);
     pg_table_close (&r->events);
     pg_result_paths_close (r);
@@ -398,6 +394,7 @@ void pg_result_free (pg_result **result)
 
 /* Answers for reports of the command line. Errors and estimate: NULL where none were measured. */
 const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
+const char *pg_result_fields (const pg_result *r) { return r->writer->file; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
 /* NULL past the last one. */

@@ -9,21 +9,21 @@
 #include "perigal/picture.h"
 #include "perigal/results.h"
 
-/* Largest numbers of fields in result.e and of pictures. */
+/* Largest numbers of fields and of pictures. */
 enum { MOST_FIELDS = 16, MOST_PICTURES = 32 };
 /* How far the files are, at the end of a step or in its middle. */
 typedef struct {
     /* Rows of both tables. */
     long     history, events;
-    /* Steps of result.e and its length in bytes. */
-    long     steps, bytes;
+    /* Moments whose fields are written, and what their writer must know to go on behind them. */
+    long     moments, keep;
     /* Number of the share of broken bonds at which fields are due next; points of the
-     * load-displacement curve; 1 if the state of the last step is in result.e. */
+     * load-displacement curve; 1 if the fields of the last step are written. */
     long     next_broken, points, last_written;
     /* Rows of cracks.csv and of tips.csv; pieces of cracks that are in cracks.csv or need no row. */
     long     pieces, tips, npiece;
     long     contact;                                  /* rows of contact.csv */
-    /* Time of the last step, and of the last fields in result.e (s, or load factor). */
+    /* Time of the last step, and of the last fields (s, or load factor). */
     double   stamp, time;
 } result_marks;
 /* A mean over a set: column name, field, its unit, the set, and the component of the field. */
@@ -79,10 +79,15 @@ struct pg_result {
     const pg_problem *problem;
     pg_solver *solver;
     char     hash[80], scene[3072];
-    pg_exodus *file;
-    pg_cloud  own;                                     /* ranks: the points of this one; n 0: not made yet */
-    int64_t  *in_block;  size_t nblock;                /* ranks: points of each block, on all of them */
-    int       in_parts;                                /* 1: result.e stays in the parts of the ranks */
+    /* Who writes the fields (output.format), what it was asked for, and what it has made of that; output
+     * NULL: not begun, or another process that holds the whole body does it. */
+    const pg_writer *writer;
+    pg_field_request request;
+    void     *output;
+    char      whole[3200];                             /* the result folder, that of rank 0 */
+    pg_cloud  own;                                     /* ranks: the points of this one */
+    pg_field_share share;                              /* ranks: which part of the whole that is */
+    int64_t  *in_block;                                /* ranks: points of each block, on all of them */
     signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
     pg_table  *history, *events;
     size_t    nfield, npicture, nwritten, ncolumn;
@@ -91,7 +96,7 @@ struct pg_result {
     result_view picture[MOST_PICTURES];
     char      written[MOST_PICTURES + 3][4096];
     char      undrawn[200];                            /* why the last missing picture was not drawn */
-    /* stages: 1: all pictures also with every step of result.e. dynamic: time instead of load
+    /* stages: 1: all pictures also with every moment whose fields are written. dynamic: time instead of load
      * factor. stairs: 1: whole lattice cells stand for the body (cells: staircase). */
     int       stages, dynamic, stairs;
     /* Magnification of displacements in pictures; share of the bonds after which fields are
@@ -128,9 +133,9 @@ struct pg_result {
     int      *tip_damaged;  size_t ntip_damaged, cap_tip_damaged;
     /* Broken bonds when the lengths were measured last; -1: they must be measured. */
     long      tip_broken;
-    /* Steps in result.e. */
-    long      exodus_steps;
-    /* 1: the state of the last step is in result.e. */
+    /* Moments whose fields are written. */
+    long      moments;
+    /* 1: those of the last step are. */
     int       last_written;
     /* The load-displacement curve, one point per row of history.csv; `more` holds step, time,
      * load factor and gauges of each point. */
@@ -151,7 +156,7 @@ struct pg_result {
     double    seconds;
     /* Time of the last step. */
     double    stamp;
-    /* Time of the last fields in result.e. */
+    /* Time of the last fields. */
     double    time;
     /* Length of a step, s or load factor, which places the stages within it. */
     double    length;
@@ -174,22 +179,29 @@ struct pg_result {
     long      generation;
 };
 /* ---- shared.c: ranks that share a run ------------------------------------------------------------------ */
-void      pg_result_fields_path  (const pg_result *r, char *out, size_t size);
-pg_status pg_result_own_cloud    (pg_result *r, const pg_cloud **out);
 void      pg_result_keep_own     (const pg_result *r, size_t components, double *value);
 double    pg_result_once         (double value);
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
 /* What each rank holds of the body, and its largest memory, as a list "parts" of report.json. */
 void      pg_result_parts_json   (pg_json *j, const pg_result *r);
-/* folder.c: removes what an earlier run of more ranks, or of another number, has left in the folder. */
-void      pg_result_drop_ranks   (const char *folder);
-/* Removes what ranks that were killed behind the end of their run have left: rows, parts of joined fields. */
+/* folder.c: removes what earlier runs have left in the folder: fields, and folders of more ranks. */
+void      pg_result_drop_earlier (const pg_result *r);
+/* Removes what ranks that were killed behind the end of their run have left: rows. */
 void      pg_result_drop_finished_ranks (const char *folder);
-/* joined_fields.c: the parts of all ranks become result.e; nothing alone. */
-pg_status pg_result_join_fields (pg_result *r);
-int       pg_result_in_parts    (const pg_result *r, const char *join);
-pg_status pg_result_count_blocks  (pg_result *r);
-pg_status pg_result_create_fields (pg_result *r);
+/* ---- fields.c: the writer of the fields ---------------------------------------------------------------- */
+/* Chooses it, before files are opened. */
+pg_status pg_result_fields_prepare (pg_result *r, const pg_scene *scene);
+/* A writer that ranks which divide the body cannot use is a fault of the scene. */
+void      pg_result_fields_check   (const pg_scene *scene);
+/* Begins, or goes on behind the moments of `from`. */
+pg_status pg_result_fields_open    (pg_result *r, const result_marks *from);
+/* Appends a moment with the values of r->field. All ranks call. */
+pg_status pg_result_fields_write   (pg_result *r, double time);
+pg_status pg_result_fields_sync    (const pg_result *r);
+/* Makes what the finished result has more, when the last moment is written. All ranks call. */
+pg_status pg_result_fields_complete (pg_result *r, const pg_state *state);
+/* What that has made takes its place (done 1), or goes. */
+pg_status pg_result_fields_finish  (const pg_result *r, int done);
 /* Fills a new result from the scene without touching the folder. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver);
@@ -233,8 +245,9 @@ pg_status pg_result_paths_write    (pg_result *r, const pg_state *state, const p
 void      pg_result_paths_json     (pg_json *j, const pg_result *r, const pg_state *state);
 double    pg_result_paths_ratio    (const pg_result *r);
 void      pg_result_paths_close    (pg_result *r);
-/* Adds the faces of all cracks to result.e, which is complete then, and closes it (crack_lines.c). */
-pg_status pg_result_paths_lines    (pg_result *r, const pg_state *state);
+/* The faces of all cracks that have grown, to be freed with pg_free (crack_lines.c). */
+pg_status pg_result_paths_faces    (const pg_result *r, const pg_state *state, size_t *n,
+                                    pg_crack_face **face);
 /* contact_rows.c: contact.csv, created or cut to the rows of `from`, and its rows. */
 pg_status pg_result_contact_create (pg_result *r, const result_marks *from);
 pg_status pg_result_contact_write  (pg_result *r, const pg_step *step);
@@ -283,7 +296,7 @@ pg_status pg_result_crack_row      (pg_result *r, const pg_state *state, double 
 const char *pg_result_voigt        (int dim, int k);
 /* Draws all pictures of the last state; what cannot be drawn becomes a warning. */
 void      pg_result_draw       (pg_result *r, const pg_state *state);
-/* Draws them as stages/NAME_0007.png for the step 7 of result.e. */
+/* Draws them as stages/NAME_0007.png for the moment 7 of the fields. */
 void      pg_result_draw_stage          (pg_result *r, const pg_state *state);
 /* Reads entry i of output.views; all of output.pictures and output.views. */
 pg_status pg_result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);

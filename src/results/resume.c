@@ -138,7 +138,7 @@ static pg_status keep_marks (const resumed *of, result_marks *m, const char *nam
 {
     pg_status status = PG_OK;
     char part[WORD];
-    long count[MARKS] = { m->history, m->events,       m->steps,  m->bytes, m->next_broken,
+    long count[MARKS] = { m->history, m->events,       m->moments, m->keep, m->next_broken,
                           m->points,  m->last_written, m->pieces, m->tips,  m->npiece, m->contact };
     double number[2] = { m->stamp, m->time };
     snprintf (part, sizeof part, "%s.counts", name);
@@ -275,7 +275,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     resumed m = memory_of (r, state, path);
     /* Rows first, then the marks that count them. */
     PG_TRY (pg_result_sync_rows (r));
-    PG_TRY (pg_exodus_sync (r->file));
+    PG_TRY (pg_result_fields_sync (r));
     r->generation++;
     PG_TRY (pg_checkpoint_prepare (path, resumed_all, &m));
 done:
@@ -306,20 +306,19 @@ int pg_result_due (const pg_result *r)
 }
 
 /* ---- going on ------------------------------------------------------------------------------------------ */
-/* Opens tables and result.e, cuts them to the marks, and takes over what the marks say of the
- * last fields. */
+void resumed_marks (pg_result *r, const result_marks *at)
+{
+    r->moments = at->moments, r->next_broken = at->next_broken, r->last_written = (int) at->last_written,
+    r->stamp = at->stamp, r->time = at->time;
+}
+
+/* Opens tables and fields, and cuts them to the marks. */
 static pg_status resumed_open (pg_result *r, const result_marks *at)
 {
     pg_status status = PG_OK;
-    char path[4096];
     PG_TRY (pg_result_history_create (r, at));
-    const pg_cloud *own;
-    PG_TRY (pg_result_own_cloud (r, &own));
-    pg_result_fields_path (r, path, sizeof path);
-    PG_TRY (pg_exodus_open (&r->file, path, own, r->nfield, r->field, at->steps, at->bytes));
-    r->exodus_steps = at->steps;
-    r->next_broken = at->next_broken, r->last_written = (int) at->last_written, r->stamp = at->stamp,
-    r->time = at->time;
+    PG_TRY (pg_result_fields_open (r, at));
+    resumed_marks (r, at);
 done:
     return status;
 }

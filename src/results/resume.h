@@ -29,7 +29,9 @@ pg_status resumed_identity (resumed *m, const pg_keeper *k);
 pg_status resumed_files    (resumed *m, const pg_keeper *k);
 /* The whole of a checkpoint (pg_keep). */
 pg_status resumed_all      (void *context, const pg_keeper *k);
-/* Opens tables and result.e, cut to the marks, and writes what was due. */
+/* Takes over what the marks say of the last fields. */
+void      resumed_marks    (pg_result *r, const result_marks *at);
+/* Opens tables and fields, cut to the marks, and writes what was due. */
 pg_status resumed_go_on    (pg_result *r, resumed *m);
 /* The number of a checkpoint, the processes of the run (1: alone), whose rank wrote it, and whether they
  * divided the body; number -1: there is none, or it is not whole. */
@@ -62,8 +64,9 @@ void      parts_path  (char *out, size_t size, const char *folder, int part, int
 pg_status parts_open  (parts_kept *parts, const pg_problem *problem);
 void      parts_close (parts_kept *parts);
 pg_moved  parts_moved (parts_kept *parts);
-pg_status parts_field (const parts_kept *parts, int divided, int step, const char *name, size_t components,
-                       double *value /* owned points x components */);
+/* A field of a moment that those before have written, at the points owned here. */
+pg_status parts_field (const parts_kept *parts, const pg_writer *writer, long moment, const char *name,
+                       size_t components, double *value /* owned points x components */);
 
 /* ---- moved_run.c --------------------------------------------------------------------------------------- */
 /* Fills in folder, count, divided, fresh and ranks of the newest checkpoint that is whole, whoever wrote it;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Results of a run that ranks share (perigal/ranks.h). Rows of history.csv are sums over the ranks, each of
  * which gives what its own points contribute; rows of events.csv are collected on rank 0 and put into the
- * order that one process would write them in; fields are one file a rank, of the points that it owns
- * (result.e.SIZE.RANK), until the run has ended (joined_fields.c). Rank 0 writes into the result folder, the
- * others into ranks/RANK below it, where each keeps what it needs to go on. */
+ * order that one process would write them in; fields are written in parts (fields.c). Rank 0 writes into the
+ * result folder, the others into ranks/RANK below it, where each keeps what it needs to go on. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
@@ -15,54 +14,6 @@ void pg_result_rank_folder (char *out, size_t size, const char *folder)
 {
     if (pg_rank () == 0) snprintf (out, size, "%s", folder);
     else snprintf (out, size, "%s/ranks/%d", folder, pg_rank ());
-}
-
-/* The file of fields: all of them beside each other in the result folder. Digits of the rank as many as those
- * of the number of ranks. */
-void pg_result_fields_path (const pg_result *r, char *out, size_t size)
-{
-    if (pg_ranks_now ()) {
-        char folder[3200];
-        snprintf (folder, sizeof folder, "%s%s", r->folder, pg_rank () ? "/../.." : "");
-        pg_exodus_part_path (out, size, folder, pg_rank_count (), pg_rank ());
-    } else snprintf (out, size, "%s/result.e", r->folder);
-}
-
-/* The points whose fields this process writes: its own. Borrowed; made once. */
-pg_status pg_result_own_cloud (pg_result *r, const pg_cloud **out)
-{
-    pg_status status = PG_OK;
-    const pg_cloud *all = &r->problem->cloud;
-    const pg_subdomain *s = all->subdomain;
-    size_t dim = (size_t) all->dim, n = 0;
-    pg_cloud *own = &r->own;
-    *out = s ? own : all;
-    if (!s || own->n) return PG_OK;
-    *own = *all;
-    own->x = own->volume = own->size = own->metric = NULL, own->block = NULL, own->subdomain = NULL;
-    own->n = s->nowned;
-    PG_ALLOC (own->x, own->n * dim);
-    PG_ALLOC (own->volume, own->n);
-    PG_ALLOC (own->block, own->n);
-    for (size_t i = 0; i < all->n; i++) {
-        if (!s->owned[i]) continue;
-        memcpy (own->x + n * dim, all->x + i * dim, dim * sizeof *own->x);
-        own->volume[n] = all->volume[i], own->block[n++] = all->block[i];
-    }
-done:
-    return status;
-}
-
-/* Values of all points become those of the points that are owned, one after the other. */
-void pg_result_keep_own (const pg_result *r, size_t components, double *value)
-{
-    const pg_subdomain *s = r->problem->cloud.subdomain;
-    size_t n = 0;
-    for (size_t i = 0; s && i < s->n; i++) {
-        if (!s->owned[i]) continue;
-        memmove (value + n * components, value + i * components, components * sizeof *value);
-        n++;
-    }
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */

@@ -154,6 +154,8 @@ pg_status pg_comparison_open (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     char folder[4096];
+    PG_TRY (pg_writer_readable (q->folder));
+    if (q->reference) PG_TRY (pg_writer_readable (q->reference));
     if (!has_fields (q->folder) || !exists (q->folder, "scene.yaml"))
         PG_FAIL (PG_E_USAGE, "%s is no result folder: it needs scene.yaml and result.e of a run", q->folder);
     PG_TRY (pg_stored_open (&c->own, q->folder, q->step, q->threads));

@@ -102,6 +102,9 @@ pen_of "$work/events.svg" 1 | goes_back && ! pen_of "$work/events.svg" 3 | goes_
 expect "plot names the nearest curve option"  64 '' 'did you mean --labels' plot "$out" --curve step pull.force_y --label a
 expect "plot names the nearest field"         64 '' "did you mean 'damage'" plot "$out" --field damag
 expect "plot names the nearest column"        64 '' "did you mean 'pull.force_y'" plot "$out" --curve step pull.force_yy
+"$perigal" run plate.yaml -o "$work/vtk" --threads 1 --set output.format=vtk --set 'output.pictures=[]' --quiet > "$work/out" 2>&1
+expect "plot of a format for other programs"   64 '' 'vtk/result.pvd is for other programs (output.format: vtk), and this one cannot read it' plot "$work/vtk"
+expect "compare with such a format"            64 '' 'run the scene with output.format: exodus' compare "$out" "$work/vtk"
 expect "plot of no folder"                    70 '' 'No such file' plot "$work/nowhere"
 cat > "$work/two.msh" <<'END'
 $MeshFormat

@@ -69,6 +69,7 @@ static void note_run (const run *r)
     note_used ("solver", r->options.kind);
     note_used ("linear", r->options.linear);
     note_used ("material", p->material[0].type->name);
+    note_used ("writer", pg_scene_text (r->scene, "output.format"));
     if (p->criterion[0].type) note_used ("criterion", p->criterion[0].type->name);
     if (p->method->shape_functions) note_used ("approximation", p->approx.type->name);
     if (p->method->shape_functions) note_used ("integration", p->integration->name);
@@ -361,7 +362,8 @@ static const char interface_scene[] =
     "interfaces: [{between: [a, b], fracture_energy: 0.1 J/m2}]}\n"
     "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 20 um}}, "
     "{set: cracks, pressure: 1 MPa}]\n"
-    "solver: {kind: static, max_events: 3}\noutput: {fields: [displacement, damage], pictures: []}\n";
+    "solver: {kind: static, max_events: 3}\n"
+    "output: {fields: [displacement, damage], format: vtk, pictures: []}\n";
 static void growing_cracks_survive_every_failing_allocation (void **state)
 {
     (void) state;
@@ -387,7 +389,7 @@ static void no_entry_of_a_catalogue_was_left_out (void **state)
         { "force", pg_force_names () },       { "solver", pg_solver_names () },
         { "criterion", pg_criterion_names () }, { "approximation", pg_approx_names () },
         { "integration", pg_integration_names () }, { "linear", pg_linear_names () },
-        { "material", pg_material_names () },
+        { "material", pg_material_names () }, { "writer", pg_writer_names () },
     };
     char name[64];
     int missing = 0;

@@ -297,7 +297,7 @@ static void results_of_points_are_no_mesh (void **state)
     pg_cloud cloud = { .dim = 2, .n = 3, .x = x, .volume = volume, .h = 1, .thickness = 1 };
     pg_exodus *e = NULL;
     pg_mesh m;
-    check_ok (pg_exodus_create (&e, path, &cloud, "points", 0, NULL));
+    check_ok (pg_exodus_create (&e, path, &cloud, "points", 0, NULL, NULL));
     pg_exodus_close (&e);
     check_fails (pg_mesh_read (&m, path), PG_E_FILE);
     check_contains (pg_last_error (), "points without elements");

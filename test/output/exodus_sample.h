@@ -35,7 +35,7 @@ static inline void end (sample *s)
 static inline void write_steps (sample *s, const char *path, int steps)
 {
     pg_exodus *file;
-    check_ok (pg_exodus_create (&file, path, &s->cloud, "a test", FIELDS, s->view));
+    check_ok (pg_exodus_create (&file, path, &s->cloud, "a test", FIELDS, s->view, NULL));
     for (int k = 0; k < steps; k++) {
         fill (s, k);
         check_ok (pg_exodus_write (file, 0.1 * k, s->view));

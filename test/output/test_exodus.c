@@ -182,7 +182,7 @@ static void an_open_file_is_readable_from_outside (void **state)
     char command[256];
     const char *path = file_at ("open.e");
     begin (&s, 2);
-    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL));
     for (int k = 0; k < 3; k++) {
         fill (&s, k);
         check_ok (pg_exodus_write (file, k, s.view));
@@ -206,7 +206,7 @@ static void a_killed_writer_leaves_its_steps (void **state)
     pid_t child = fork ();
     if (child == 0) {
         pg_exodus *file;
-        if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view) != PG_OK) _exit (1);
+        if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL) != PG_OK) _exit (1);
         for (int k = 0; k < 4; k++) {
             fill (&s, k);
             if (pg_exodus_write (file, k, s.view) != PG_OK) _exit (1);
@@ -241,7 +241,7 @@ static void no_instant_to_be_killed_at_is_bad (void **state)
         pid_t child = fork ();
         if (child == 0) {
             pg_exodus *file;
-            if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view) != PG_OK) _exit (1);
+            if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL) != PG_OK) _exit (1);
             for (int k = 0;; k++) {
                 for (int v = 0; v < FIELDS; v++)
                     for (size_t i = 0; i < s.cloud.n * (size_t) s.view[v].components; i++) s.value[v][i] = k;
@@ -286,7 +286,7 @@ static void a_step_that_does_not_fit_costs_no_other (void **state)
     begin (&s, 2);
     signal (SIGXFSZ, SIG_IGN);
     getrlimit (RLIMIT_FSIZE, &old);
-    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL));
     pg_exodus_size (file, &steps, &first);
     for (int k = 0; k < 2; k++) {
         fill (&s, k);
@@ -324,7 +324,7 @@ static void an_opened_file_goes_on_where_it_is_told (void **state)
     pg_cloud c;
     const char *path = file_at ("goes_on.e");
     begin (&s, 3);
-    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL));
     for (int k = 0; k < 5; k++) {
         fill (&s, k);
         check_ok (pg_exodus_write (file, k, s.view));
@@ -356,7 +356,7 @@ static void a_file_of_another_run_is_not_gone_on_with (void **state)
     long steps, bytes;
     const char *path = file_at ("another.e");
     begin (&s, 2), begin (&other, 3);
-    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL));
     fill (&s, 0);
     check_ok (pg_exodus_write (file, 0, s.view));
     pg_exodus_size (file, &steps, &bytes);
@@ -401,7 +401,7 @@ static void nan_comes_back (void **state)
     begin (&s, 2);
     fill (&s, 0);
     s.value[2][5] = NAN, s.value[2][6] = -INFINITY;
-    check_ok (pg_exodus_create (&file, path, &s.cloud, NULL, FIELDS, s.view));
+    check_ok (pg_exodus_create (&file, path, &s.cloud, NULL, FIELDS, s.view, NULL));
     check_ok (pg_exodus_write (file, 0, s.view));
     pg_exodus_close (&file);
     check_field (&s, path, 2, 0);
@@ -415,7 +415,7 @@ static void a_path_that_cannot_be_written_is_named (void **state)
     pg_exodus *file;
     const char *path = file_at ("missing/result.e");
     begin (&s, 2);
-    check_fails (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view), PG_E_FILE);
+    check_fails (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view, NULL), PG_E_FILE);
     assert_null (file);
     check_contains (pg_last_error (), path);
     check_contains (pg_last_error (), "No such file");
@@ -428,12 +428,13 @@ static void other_fields_than_announced_are_refused (void **state)
     sample s;
     pg_exodus *file;
     begin (&s, 2);
-    check_ok (pg_exodus_create (&file, file_at ("other.e"), &s.cloud, "", FIELDS, s.view));
+    check_ok (pg_exodus_create (&file, file_at ("other.e"), &s.cloud, "", FIELDS, s.view, NULL));
     strcpy (s.view[1].name, "strain");
     check_fails (pg_exodus_write (file, 0, s.view), PG_E_USAGE);
     pg_exodus_close (&file);
     s.view[1] = s.view[0];
-    check_fails (pg_exodus_create (&file, file_at ("twice.e"), &s.cloud, "", FIELDS, s.view), PG_E_USAGE);
+    check_fails (pg_exodus_create (&file, file_at ("twice.e"), &s.cloud, "", FIELDS, s.view, NULL),
+                 PG_E_USAGE);
     end (&s);
 }
 
@@ -462,7 +463,7 @@ static pg_status whole_life (sample *s, const char *path)
     double *value = NULL, *time = NULL;
     char (*names)[32] = NULL;
     long steps, bytes;
-    PG_TRY (pg_exodus_create (&file, path, &s->cloud, "", FIELDS, s->view));
+    PG_TRY (pg_exodus_create (&file, path, &s->cloud, "", FIELDS, s->view, NULL));
     PG_TRY (pg_exodus_write (file, 1, s->view));
     pg_exodus_size (file, &steps, &bytes);
     pg_exodus_close (&file);

@@ -27,7 +27,7 @@ static size_t size_of (int ncid, const char *name)
 
 /* What ParaView's reader of Exodus goes by: sizes, a block of BAR2 or TRI3 with nodes of its own, nodal
  * values for all nodes, an element variable that the truth table gives to that block alone. */
-static void check_lines (const sample *s, const char *path, size_t n, const pg_exodus_piece *line)
+static void check_lines (const sample *s, const char *path, size_t n, const pg_crack_face *line)
 {
     int ncid, var;
     char type[8] = "", name[64];
@@ -72,20 +72,20 @@ static void lines_come_behind_the_points (void **state)
         pg_exodus *file;
         pg_cloud back;
         const char *path = file_at ("lines.e");
-        const pg_exodus_piece line[3] = {
+        const pg_crack_face line[3] = {
             { { { 1, 2, 3 }, { 4, 5, 6 }, { 2, 2, 2 } }, { 0, 7, 5 }, 0 },
             { { { 4, 5, 6 }, { 7, 8, 9 } }, { 7, 3 }, 0.1 },
             { { { 0.1, 0.2, 0.3 }, { 1e-9, 0, -1 } }, { 48, 1 }, 0.15 },
         };
         begin (&s, dim);
-        check_ok (pg_exodus_create (&file, path, &s.cloud, "a test", FIELDS, s.view));
+        check_ok (pg_exodus_create (&file, path, &s.cloud, "a test", FIELDS, s.view, NULL));
         for (int k = 0; k < 2; k++) {
             fill (&s, k);
             check_ok (pg_exodus_write (file, 0.1 * k, s.view));
         }
         check_ok (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 0, NULL));
         check_ok (pg_exodus_commit_pieces (path));       /* none: the file stays as it is */
-        const pg_exodus_piece wrong = { .point = { 0, s.cloud.n } };
+        const pg_crack_face wrong = { .point = { 0, s.cloud.n } };
         check_fails (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 1, &wrong), PG_E_USAGE);
         /* a copy that never takes the place of the file leaves it open for more steps */
         check_ok (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 2, line));
@@ -128,11 +128,11 @@ static void lines_on_a_full_disk_leave_the_file (void **state)
     signal (SIGXFSZ, SIG_IGN);
     getrlimit (RLIMIT_FSIZE, &old);
     for (rlim_t limit = 500; limit < 8000; limit += 1500) {
-        check_ok (pg_exodus_create (&file, path, &s.cloud, "a test", FIELDS, s.view));
+        check_ok (pg_exodus_create (&file, path, &s.cloud, "a test", FIELDS, s.view, NULL));
         fill (&s, 0);
         check_ok (pg_exodus_write (file, 0, s.view));
         setrlimit (RLIMIT_FSIZE, &(struct rlimit) { limit, old.rlim_max });
-        const pg_exodus_piece none = { .since = 0 };
+        const pg_crack_face none = { .since = 0 };
         pg_status status = pg_exodus_prepare_pieces (file, &s.cloud, "a test", 1, &none);
         setrlimit (RLIMIT_FSIZE, &old);
         assert_int_equal (status, PG_E_FILE);

@@ -3,6 +3,7 @@
 #ifndef PERIGAL_TEST_AGAIN_H
 #define PERIGAL_TEST_AGAIN_H
 #include "folder.h"
+#include <glob.h>
 
 #define BODY \
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
@@ -145,5 +146,26 @@ static inline pg_status resume (const char *text, const char *where, run *r, vis
     *r = prepare (1, text);
     *v = (visit) { 0 };
     return pg_result_resume (&v->result, where, r->scene, r->problem, r->solver, r->state, from);
+}
+
+/* Both folders have the same files of fields with the same bytes. */
+static inline void same_fields (const char *a, const char *b)
+{
+    glob_t one, other;
+    char path[200];
+    snprintf (path, sizeof path, "%s/result*", a);
+    assert_int_equal (glob (path, 0, NULL, &one), 0);
+    snprintf (path, sizeof path, "%s/result*", b);
+    assert_int_equal (glob (path, 0, NULL, &other), 0);
+    assert_int_equal (one.gl_pathc, other.gl_pathc);
+    for (size_t k = 0; k < one.gl_pathc; k++) {
+        long n = size_of (one.gl_pathv[k]);
+        assert_string_equal (strrchr (one.gl_pathv[k], '/'), strrchr (other.gl_pathv[k], '/'));
+        assert_int_equal (n, size_of (other.gl_pathv[k]));
+        char *x = slurp (one.gl_pathv[k]), *y = slurp (other.gl_pathv[k]);
+        assert_memory_equal (x, y, (size_t) n);
+        pg_free (x), pg_free (y);
+    }
+    globfree (&one), globfree (&other);
 }
 #endif
