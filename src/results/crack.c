@@ -62,14 +62,14 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
     if (pg_problem_removes (p)) return PG_OK;              /* bonds of what was removed are no crack */
-    if (r->grows && state->paths) {                        /* known, not estimated */
+    if (r->tips.grows && state->paths) {                        /* known, not estimated */
         r->crack.length = state->paths->length, r->crack.area = r->crack.length * p->cloud.thickness;
         r->crack.found = r->crack.area > 0;
         if (r->crack.found)
             r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
         return PG_OK;
     }
-    if (r->grows && state->surfaces) {
+    if (r->tips.grows && state->surfaces) {
         r->crack.area = state->surfaces->area, r->crack.found = r->crack.area > 0;
         if (r->crack.found)
             r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
@@ -98,7 +98,7 @@ done:
     return status;
 }
 
-size_t pg_result_crack_columns (const pg_result *r) { return r->counting && !r->grows; }
+size_t pg_result_crack_columns (const pg_result *r) { return r->counting && !r->tips.grows; }
 
 void pg_result_crack_column (const pg_result *r, char *out, size_t size)
 {

@@ -147,7 +147,7 @@ pg_status pg_result_paths_faces (const pg_result *r, const pg_state *state, size
     double *since = NULL, last = 0;
     const pg_cracks *cracks = pg_state_cracks (r->problem, state);
     *n = 0, *face = NULL;
-    if (!r->grows || cracks->n == 0) return PG_OK;
+    if (!r->tips.grows || cracks->n == 0) return PG_OK;
     sight s = { r->problem, cracks };
     PG_ALLOC (since, cracks->n);
     PG_TRY (read_since (r, cracks->n, since));

@@ -100,14 +100,15 @@ done:
 /* The lengths are measured at the first row in any case, since pre-cracks have a length. */
 pg_status pg_result_tips_read (pg_result *r, const pg_scene *scene)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
-    r->ntip = pg_scene_count (scene, "output.tips");
-    r->tip_broken = -1;
-    PG_ALLOC (r->tip, r->ntip);
-    for (size_t i = 0; i < r->ntip; i++) PG_TRY (read_tip (&r->tip[i], scene, i, r->problem));
-    for (size_t m = 0; r->ntip && m < r->problem->nlaw; m++)
-        r->rayleigh = fmax (r->rayleigh, pg_material_waves (&r->problem->law[m]).rayleigh);
-    PG_TRY (pg_ranks_most (1, &r->rayleigh));
+    t->ntip = pg_scene_count (scene, "output.tips");
+    t->broken = -1;
+    PG_ALLOC (t->tip, t->ntip);
+    for (size_t i = 0; i < t->ntip; i++) PG_TRY (read_tip (&t->tip[i], scene, i, r->problem));
+    for (size_t m = 0; t->ntip && m < r->problem->nlaw; m++)
+        t->rayleigh = fmax (t->rayleigh, pg_material_waves (&r->problem->law[m]).rayleigh);
+    PG_TRY (pg_ranks_most (1, &t->rayleigh));
 done:
     return status;
 }
@@ -115,9 +116,10 @@ done:
 /* Accepts a result that was only half prepared. */
 void pg_result_tips_free (pg_result *r)
 {
-    for (size_t i = 0; r->tip && i < r->ntip; i++) pg_free (r->tip[i].along), pg_free (r->tip[i].length);
-    pg_free (r->tip), pg_free (r->tip_time);
-    pg_free (r->tip_seen), pg_free (r->tip_known), pg_free (r->tip_queue), pg_free (r->tip_damaged);
+    result_tips *t = &r->tips;
+    for (size_t i = 0; t->tip && i < t->ntip; i++) pg_free (t->tip[i].along), pg_free (t->tip[i].length);
+    pg_free (t->tip), pg_free (t->time);
+    pg_free (t->seen), pg_free (t->known), pg_free (t->queue), pg_free (t->damaged);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
@@ -141,14 +143,15 @@ static pg_status share_damage (const pg_subdomain *s, double *damage)
  * tip begins with them. */
 static pg_status list_damaged (pg_result *r, const double *damage)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     double least = INFINITY;
-    for (size_t i = 0; i < r->ntip; i++) least = fmin (least, r->tip[i].damage);
-    r->ntip_damaged = 0;
+    for (size_t i = 0; i < t->ntip; i++) least = fmin (least, t->tip[i].damage);
+    t->ndamaged = 0;
     for (size_t i = 0; i < r->problem->cloud.n; i++) {
         if (!(damage[i] >= least)) continue;
-        PG_GROW (r->tip_damaged, r->cap_tip_damaged, r->ntip_damaged + 1);
-        r->tip_damaged[r->ntip_damaged++] = (int) i;
+        PG_GROW (t->damaged, t->cap_damaged, t->ndamaged + 1);
+        t->damaged[t->ndamaged++] = (int) i;
     }
 done:
     return status;
@@ -180,19 +183,20 @@ static void spread (const result_tip *tip, const pg_problem *p, const double *da
  * none of them finds another one: the neighbours of a point are among the ghosts of its owner. */
 static pg_status follow (pg_result *r, const result_tip *tip, const double *damage, size_t *found)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
     const pg_subdomain *s = p->cloud.subdomain;
-    double nearest = -INFINITY, more = 1, *seen = r->tip_seen, *known = r->tip_known;
-    int *queue = r->tip_queue;
+    double nearest = -INFINITY, more = 1, *seen = t->seen, *known = t->known;
+    int *queue = t->queue;
     size_t n = 0, at = 0, before;
-    for (size_t k = 0; k < r->ntip_damaged; k++) {
-        size_t i = (size_t) r->tip_damaged[k];
+    for (size_t k = 0; k < t->ndamaged; k++) {
+        size_t i = (size_t) t->damaged[k];
         if (damage[i] >= tip->damage) nearest = fmax (nearest, -distance (p, i, tip->from));
     }
     PG_TRY (pg_ranks_most (1, &nearest));
-    for (size_t k = 0; k < r->ntip_damaged; k++) {
-        size_t i = (size_t) r->tip_damaged[k];
+    for (size_t k = 0; k < t->ndamaged; k++) {
+        size_t i = (size_t) t->damaged[k];
         if (damage[i] >= tip->damage
             && distance (p, i, tip->from) <= pg_problem_spacing (p, PG_NODES, i) - nearest)
             seen[i] = 1, queue[n++] = (int) i;
@@ -215,11 +219,12 @@ done:
 
 static pg_status make_workspace (pg_result *r)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     size_t n = r->problem->cloud.n;
-    if (!r->tip_seen) PG_ALLOC (r->tip_seen, n);
-    if (!r->tip_queue) PG_ALLOC (r->tip_queue, n);
-    if (!r->tip_known && r->problem->cloud.subdomain) PG_ALLOC (r->tip_known, n);
+    if (!t->seen) PG_ALLOC (t->seen, n);
+    if (!t->queue) PG_ALLOC (t->queue, n);
+    if (!t->known && r->problem->cloud.subdomain) PG_ALLOC (t->known, n);
 done:
     return status;
 }
@@ -233,8 +238,8 @@ static pg_status farthest (pg_result *r, const result_tip *tip, const double *da
     *length = 0;
     status = follow (r, tip, damage, &n);
     for (size_t k = 0; k < n; k++) {
-        *length = fmax (*length, tip->along[r->tip_queue[k]]);
-        r->tip_seen[r->tip_queue[k]] = 0;
+        *length = fmax (*length, tip->along[r->tips.queue[k]]);
+        r->tips.seen[r->tips.queue[k]] = 0;
     }
     PG_TRY (status);
     PG_TRY (pg_ranks_most (1, length));
@@ -246,29 +251,30 @@ done:
 pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
                            double *work)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const char *unit;
     int components = 0;
-    double fresh = r->ntip > 0 && force->field && state->broken != r->tip_broken;
-    size_t n = r->tips;
-    if (r->ntip == 0) return PG_OK;
+    double fresh = t->ntip > 0 && force->field && state->broken != t->broken;
+    size_t n = t->tips;
+    if (t->ntip == 0) return PG_OK;
     PG_TRY (pg_ranks_most (1, &fresh));
     if (fresh > 0) PG_TRY (force->field (self, state, state->d, "damage", &components, &unit, work));
     if (components == 1) PG_TRY (share_damage (r->problem->cloud.subdomain, work));
     if (components == 1) PG_TRY (list_damaged (r, work));
-    for (size_t i = 0; i < r->ntip; i++) {
-        result_tip *tip = &r->tip[i];
+    for (size_t i = 0; i < t->ntip; i++) {
+        result_tip *tip = &t->tip[i];
         PG_GROW (tip->length, tip->capacity, n + 1);
         tip->length[n] = n > 0 ? tip->length[n - 1] : 0;
         if (components == 1) PG_TRY (farthest (r, tip, work, &tip->length[n]));
         row[i] = pg_result_once (tip->length[n]);
     }
-    PG_GROW (r->tip_time, r->tip_capacity, n + 1);
-    r->tip_time[n] = r->dynamic ? step->time : step->factor;
-    r->tips = n + 1;
-    r->tip_broken = state->broken;
+    PG_GROW (t->time, t->capacity, n + 1);
+    t->time[n] = r->dynamic ? step->time : step->factor;
+    t->tips = n + 1;
+    t->broken = state->broken;
 done:
     return status;
 }
@@ -276,23 +282,24 @@ done:
 /* The first n rows, for a checkpoint. */
 pg_status pg_result_tips_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
-    if (r->ntip == 0) goto done;
-    if (k->reading) r->tips = n, r->tip_broken = -1;
-    PG_GROW (r->tip_time, r->tip_capacity, n);
-    PG_TRY (k->numbers (k->context, "tips.time", n, r->tip_time));
-    for (size_t i = 0; i < r->ntip; i++) {
+    if (t->ntip == 0) goto done;
+    if (k->reading) t->tips = n, t->broken = -1;
+    PG_GROW (t->time, t->capacity, n);
+    PG_TRY (k->numbers (k->context, "tips.time", n, t->time));
+    for (size_t i = 0; i < t->ntip; i++) {
         char name[64];
         snprintf (name, sizeof name, "tips.%zu", i);
-        PG_GROW (r->tip[i].length, r->tip[i].capacity, n);
-        PG_TRY (k->numbers (k->context, name, n, r->tip[i].length));
+        PG_GROW (t->tip[i].length, t->tip[i].capacity, n);
+        PG_TRY (k->numbers (k->context, name, n, t->tip[i].length));
     }
 done:
     return status;
 }
 
 /* ---- speeds -------------------------------------------------------------------------------------------- */
-double pg_result_tips_rayleigh (const pg_result *r) { return r->rayleigh; }
+double pg_result_tips_rayleigh (const pg_result *r) { return r->tips.rayleigh; }
 
 /* Speed of the tip at row i, m/s. The length grows by whole spacings, so differences of
  * neighbouring rows mean nothing: the slope of the straight line of best fit within `half` s
@@ -313,9 +320,9 @@ static double slope (const result_tip *tip, const double *time, size_t first, si
 /* Speeds are fitted over the time in which a Rayleigh wave passes four horizons. */
 void pg_result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double *speed)
 {
-    const result_tip *tip = &r->tip[i];
-    const double *time = r->tip_time, rayleigh = pg_result_tips_rayleigh (r);
-    size_t n = r->tips, start, stop;
+    const result_tip *tip = &r->tips.tip[i];
+    const double *time = r->tips.time, rayleigh = pg_result_tips_rayleigh (r);
+    size_t n = r->tips.tips, start, stop;
     *out = (result_tip_run) { .first = 0 };
     while (out->first < n && !(tip->length[out->first] > 0)) out->first++;
     if (out->first == n) return;
@@ -353,18 +360,20 @@ done:
  * first of them is drawn under all their names. */
 static int like_an_earlier (const pg_result *r, size_t i)
 {
+    const result_tips *t = &r->tips;
     for (size_t k = 0; k < i; k++)
-        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) return 1;
+        if (memcmp (t->tip[k].length, t->tip[i].length, t->tips * sizeof *t->tip->length) == 0) return 1;
     return 0;
 }
 
 /* The names of all cracks with these lengths, "a = b". */
 static void write_names (const pg_result *r, size_t i, char *out, size_t size)
 {
-    int used = snprintf (out, size, "%s", r->tip[i].name);
-    for (size_t k = i + 1; k < r->ntip && used < (int) size; k++)
-        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0)
-            used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
+    const result_tips *t = &r->tips;
+    int used = snprintf (out, size, "%s", t->tip[i].name);
+    for (size_t k = i + 1; k < t->ntip && used < (int) size; k++)
+        if (memcmp (t->tip[k].length, t->tip[i].length, t->tips * sizeof *t->tip->length) == 0)
+            used += snprintf (out + used, size - (size_t) used, " = %s", t->tip[k].name);
 }
 
 /* tip.png shows all lengths over time or load factor; tip_speed.png, in dynamic runs, the
@@ -372,31 +381,32 @@ static void write_names (const pg_result *r, size_t i, char *out, size_t size)
  * mode I crack to be faster. */
 pg_status pg_result_tips_pictures (pg_result *r)
 {
+    result_tips *t = &r->tips;
     enum { ROOM = 256 };
     pg_status status = PG_OK;
-    size_t n = r->tips, alone = 0, moving = 0;
+    size_t n = t->tips, alone = 0, moving = 0;
     pg_curve *curve = NULL, *fast = NULL;
     char *names = NULL;
     double *speed = NULL, limit[2] = { pg_result_tips_rayleigh (r), pg_result_tips_rayleigh (r) },
            ends[2] = { 0, 0 };
     result_tip_run run;
-    if (r->ntip == 0 || n < 2) return PG_OK;
-    PG_ALLOC (curve, r->ntip);
-    PG_ALLOC (fast, r->ntip + 1);
-    PG_ALLOC (names, r->ntip * ROOM);
-    PG_ALLOC (speed, r->ntip * n);
-    for (size_t i = 0; i < r->ntip; i++) {
+    if (t->ntip == 0 || n < 2) return PG_OK;
+    PG_ALLOC (curve, t->ntip);
+    PG_ALLOC (fast, t->ntip + 1);
+    PG_ALLOC (names, t->ntip * ROOM);
+    PG_ALLOC (speed, t->ntip * n);
+    for (size_t i = 0; i < t->ntip; i++) {
         double *v = speed + i * n;
         if (like_an_earlier (r, i)) continue;
         write_names (r, i, names + i * ROOM, ROOM);
-        curve[alone++] = (pg_curve) { names + i * ROOM, n, r->tip_time, r->tip[i].length, 0 };
+        curve[alone++] = (pg_curve) { names + i * ROOM, n, t->time, t->tip[i].length, 0 };
         pg_result_tips_run (r, i, &run, v);
         if (run.moved && r->dynamic)
-            fast[moving++] = (pg_curve){ names + i * ROOM, n - run.first, r->tip_time + run.first,
+            fast[moving++] = (pg_curve){ names + i * ROOM, n - run.first, t->time + run.first,
                                          v + run.first, 0 };
     }
     PG_TRY (chart (r, "tip", alone, curve, "length of the crack (m)"));
-    ends[0] = r->tip_time[0], ends[1] = r->tip_time[n - 1];
+    ends[0] = t->time[0], ends[1] = t->time[n - 1];
     if (moving == 0) goto done;
     if (limit[0] > 0) fast[moving++] = (pg_curve) { "c_{R}", 2, ends, limit, 0 };
     PG_TRY (chart (r, "tip_speed", moving, fast, "speed of the tip (m/s)"));
@@ -409,28 +419,29 @@ done:
  * 1870 m/s at most (at 9.35 mm, 9.52 us): 0.55 and 0.68 of c_R". */
 int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 {
+    const result_tips *t = &r->tips;
     double rayleigh = pg_result_tips_rayleigh (r);
     result_tip_run run;
     char until[32] = "the end";
-    if (i >= r->ntip || r->tips == 0) return 0;
-    const result_tip *tip = &r->tip[i];
+    if (i >= t->ntip || t->tips == 0) return 0;
+    const result_tip *tip = &t->tip[i];
     pg_result_tips_run (r, i, &run, NULL);
     int used = snprintf (out, size, "%s: ", tip->name);
     out += used, size -= (size_t) used;
     if (!run.moved)
-        return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not grow" : "no crack"), 1;
+        return snprintf (out, size, "%s", tip->length[t->tips - 1] > 0 ? "does not grow" : "no crack"), 1;
     used = snprintf (out, size, "%.4g to %.4g mm", 1e3 * tip->length[run.first],
-                     1e3 * tip->length[r->tips - 1]);
+                     1e3 * tip->length[t->tips - 1]);
     out += used, size -= (size_t) used;
     if (!r->dynamic)
-        return snprintf (out, size, ", from load factor %.4g to %.4g", r->tip_time[run.start],
-                         r->tip_time[run.stop]),
+        return snprintf (out, size, ", from load factor %.4g to %.4g", t->time[run.start],
+                         t->time[run.stop]),
                1;
-    if (run.stop + 2 < r->tips) snprintf (until, sizeof until, "%.4g us", 1e6 * r->tip_time[run.stop]);
+    if (run.stop + 2 < t->tips) snprintf (until, sizeof until, "%.4g us", 1e6 * t->time[run.stop]);
     used = snprintf (out, size,
                      ", from %.4g us to %s, %.4g m/s on average, %.4g m/s at most (at %.4g mm, %.4g us)",
-                     1e6 * r->tip_time[run.start], until, run.mean, run.largest,
-                     1e3 * tip->length[run.fastest], 1e6 * r->tip_time[run.fastest]);
+                     1e6 * t->time[run.start], until, run.mean, run.largest,
+                     1e3 * tip->length[run.fastest], 1e6 * t->time[run.fastest]);
     if (rayleigh > 0)
         snprintf (out + used, size - (size_t) used, ": %.2f and %.2f of c_R", run.mean / rayleigh,
                   run.largest / rayleigh);
@@ -440,26 +451,27 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 /* The summary of each crack; static runs have load factors instead of times, and no speeds. */
 void pg_result_tips_json (pg_json *j, const pg_result *r)
 {
+    const result_tips *t = &r->tips;
     double rayleigh = pg_result_tips_rayleigh (r);
     const char *when[2] = { r->dynamic ? "started" : "started_at_factor",
                             r->dynamic ? "stopped" : "stopped_at_factor" };
-    if (r->ntip == 0) return;
+    if (t->ntip == 0) return;
     pg_json_open (j, "tips", '[');
-    for (size_t i = 0; i < r->ntip; i++) {
-        const result_tip *tip = &r->tip[i];
+    for (size_t i = 0; i < t->ntip; i++) {
+        const result_tip *tip = &t->tip[i];
         result_tip_run run;
         pg_result_tips_run (r, i, &run, NULL);
         pg_json_open (j, NULL, '{');
         pg_json_text (j, "name", tip->name);
         pg_json_number (j, "damage", tip->damage);
-        pg_json_number (j, "first", run.first < r->tips ? tip->length[run.first] : 0);
-        pg_json_number (j, "last", r->tips ? tip->length[r->tips - 1] : 0);
-        pg_json_number (j, when[0], run.moved ? r->tip_time[run.start] : NAN);
-        pg_json_number (j, when[1], run.moved ? r->tip_time[run.stop] : NAN);
+        pg_json_number (j, "first", run.first < t->tips ? tip->length[run.first] : 0);
+        pg_json_number (j, "last", t->tips ? tip->length[t->tips - 1] : 0);
+        pg_json_number (j, when[0], run.moved ? t->time[run.start] : NAN);
+        pg_json_number (j, when[1], run.moved ? t->time[run.stop] : NAN);
         if (r->dynamic) {
             pg_json_number (j, "mean_speed", run.mean);
             pg_json_number (j, "largest_speed", run.largest);
-            pg_json_number (j, "largest_at", run.moved ? r->tip_time[run.fastest] : NAN);
+            pg_json_number (j, "largest_at", run.moved ? t->time[run.fastest] : NAN);
             pg_json_number (j, "rayleigh_speed", rayleigh);
             pg_json_number (j, "mean_over_rayleigh", rayleigh > 0 ? run.mean / rayleigh : NAN);
             pg_json_number (j, "largest_over_rayleigh", rayleigh > 0 ? run.largest / rayleigh : NAN);

@@ -79,26 +79,27 @@ static int moves (const pg_load *load)
  * largest. */
 void pg_result_curve_choose (pg_result *r)
 {
+    result_curve *c = &r->curve;
     const pg_problem *p = r->problem;
     double most = 0;
-    r->curve_load = -1;
+    c->load = -1;
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
             int platen = load->kind == PG_PLATEN_MOTION;
             if (!platen && !moves (load)) continue;
             double size = platen ? farthest_platen (p, load, k) : farthest (p, load, k);
-            if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
+            if (size > most) most = size, c->load = (int) l, c->component = k;
         }
     size_t last = 0;
-    for (size_t l = 0, none = r->curve_load < 0; none && l < p->nload; l++) {
+    for (size_t l = 0, none = c->load < 0; none && l < p->nload; l++) {
         double strongest = 0;
         size_t first = begins (p, &p->load[l]);
-        if (r->curve_load >= 0 && first <= last) continue;
+        if (c->load >= 0 && first <= last) continue;
         for (int k = 0; k < p->dim; k++) {
             double push = push_along (p, &p->load[l], k);
             if (!(push > strongest)) continue;
-            strongest = push, last = first, r->curve_load = (int) l, r->curve_component = k;
+            strongest = push, last = first, c->load = (int) l, c->component = k;
         }
     }
 }
@@ -108,17 +109,18 @@ void pg_result_curve_choose (pg_result *r)
  * it: step, time, load factor, gauges (m). */
 pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
 {
+    result_curve *c = &r->curve;
     pg_status status = PG_OK;
-    size_t width = FIRST_GAUGE + r->problem->ngauge, i = r->npoint;
-    PG_GROW (r->curve_x, r->cap_x, i + 1);
-    PG_GROW (r->curve_y, r->cap_y, i + 1);
-    PG_GROW (r->curve_more, r->cap_more, (i + 1) * width);
-    double *more = r->curve_more + i * width;
-    r->curve_x[i] = x, r->curve_y[i] = y;
+    size_t width = FIRST_GAUGE + r->problem->ngauge, i = c->npoint;
+    PG_GROW (c->x, c->cap_x, i + 1);
+    PG_GROW (c->y, c->cap_y, i + 1);
+    PG_GROW (c->more, c->cap_more, (i + 1) * width);
+    double *more = c->more + i * width;
+    c->x[i] = x, c->y[i] = y;
     more[STEP] = (double) step->number, more[TIME] = step->time, more[FACTOR] = step->factor;
     more[UNJUDGED] = (double) step->unjudged;
     for (size_t g = 0; g < r->problem->ngauge; g++) more[FIRST_GAUGE + g] = gauges[g];
-    r->npoint++;
+    c->npoint++;
 done:
     return status;
 }
@@ -126,15 +128,16 @@ done:
 /* The first n points of the curve, for a checkpoint. */
 pg_status pg_result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
+    result_curve *c = &r->curve;
     pg_status status = PG_OK;
     size_t width = FIRST_GAUGE + r->problem->ngauge;
-    PG_GROW (r->curve_x, r->cap_x, n);
-    PG_GROW (r->curve_y, r->cap_y, n);
-    PG_GROW (r->curve_more, r->cap_more, n * width);
-    if (k->reading) r->npoint = n;
-    PG_TRY (k->numbers (k->context, "curve.x", n, r->curve_x));
-    PG_TRY (k->numbers (k->context, "curve.y", n, r->curve_y));
-    PG_TRY (k->numbers (k->context, "curve.more", n * width, r->curve_more));
+    PG_GROW (c->x, c->cap_x, n);
+    PG_GROW (c->y, c->cap_y, n);
+    PG_GROW (c->more, c->cap_more, n * width);
+    if (k->reading) c->npoint = n;
+    PG_TRY (k->numbers (k->context, "curve.x", n, c->x));
+    PG_TRY (k->numbers (k->context, "curve.y", n, c->y));
+    PG_TRY (k->numbers (k->context, "curve.more", n * width, c->more));
 done:
     return status;
 }
@@ -164,13 +167,14 @@ static int by_events (const pg_result *r) { return pg_solver_settled (r->solver)
  * every load. */
 static double initial_stiffness (const pg_result *r, size_t peak)
 {
+    const result_curve *c = &r->curve;
     double xy = 0, xx = 0;
     for (size_t i = 0; i <= peak && !by_events (r); i++)
-        if (fabs (r->curve_y[i]) <= 0.4 * fabs (r->curve_y[peak]))
-            xy += r->curve_x[i] * r->curve_y[i], xx += r->curve_x[i] * r->curve_x[i];
+        if (fabs (c->y[i]) <= 0.4 * fabs (c->y[peak]))
+            xy += c->x[i] * c->y[i], xx += c->x[i] * c->x[i];
     /* Least squares through the origin: k = sum x y / sum x^2. */
     if (xx > 0 && xy != 0) return xy / xx;
-    return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
+    return c->x[0] != 0 ? c->y[0] / c->x[0] : NAN;
 }
 
 /* What a load does over its set: the least and the largest of component k, the largest of the others. Those
@@ -214,43 +218,45 @@ static int is_conjugate (const pg_problem *p, const pg_load *load, int k)
 
 static const double *more_of (const pg_result *r, size_t row)
 {
-    return r->curve_more + row * (FIRST_GAUGE + r->problem->ngauge);
+    return r->curve.more + row * (FIRST_GAUGE + r->problem->ngauge);
 }
 
 /* The peak is the row of largest |force| of all rows in which every tip of a crack was judged; of all rows
  * where there is no such row, which `judged` tells. */
 void pg_result_curve_read (pg_result *r)
 {
-    size_t n = r->npoint, row = 0, judged = 0;
-    r->peak = (result_peak) { 0 };
-    if (r->curve_load < 0 || n == 0) return;
+    result_curve *c = &r->curve;
+    size_t n = c->npoint, row = 0, judged = 0;
+    c->peak = (result_peak) { 0 };
+    if (c->load < 0 || n == 0) return;
     for (size_t i = 0; i < n; i++) judged += !(more_of (r, i)[UNJUDGED] > 0);
     for (size_t i = 0, any = 0; i < n; i++) {
         if (judged && more_of (r, i)[UNJUDGED] > 0) continue;
-        if (!any || fabs (r->curve_y[i]) > fabs (r->curve_y[row])) row = i, any = 1;
+        if (!any || fabs (c->y[i]) > fabs (c->y[row])) row = i, any = 1;
     }
     const double *more = more_of (r, row);
-    r->peak = (result_peak){ .found = 1, .row = row, .force = r->curve_y[row],
-        .displacement = r->curve_x[row],
+    c->peak = (result_peak){ .found = 1, .row = row, .force = c->y[row],
+        .displacement = c->x[row],
                              .step = more[STEP], .time = more[TIME], .factor = more[FACTOR], .initial = NAN,
                              .secant = NAN, .judged = judged > 0, .left_out = judged ? n - judged : 0 };
     if (!from_rest (r->problem)) return;
-    if (!is_conjugate (r->problem, &r->problem->load[r->curve_load], r->curve_component)) return;
-    r->peak.initial = initial_stiffness (r, row);
-    if (r->peak.displacement != 0) r->peak.secant = r->peak.force / r->peak.displacement;
+    if (!is_conjugate (r->problem, &r->problem->load[c->load], c->component)) return;
+    c->peak.initial = initial_stiffness (r, row);
+    if (c->peak.displacement != 0) c->peak.secant = c->peak.force / c->peak.displacement;
 }
 
 /* Writes the load and component that the curve follows, the peak, the gauges at the peak and
  * both stiffnesses; nothing without a curve. */
 void pg_result_curve_json (pg_json *j, const pg_result *r)
 {
-    const result_peak *k = &r->peak;
+    const result_curve *c = &r->curve;
+    const result_peak *k = &c->peak;
     const pg_problem *p = r->problem;
     if (!k->found) return;
-    const double *gauge = r->curve_more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
+    const double *gauge = c->more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
     pg_json_open (j, "curve", '{');
-    pg_json_text (j, "load", p->load[r->curve_load].name);
-    pg_json_text (j, "component", (const char[2]) { "xyz"[r->curve_component], 0 });
+    pg_json_text (j, "load", p->load[c->load].name);
+    pg_json_text (j, "component", (const char[2]) { "xyz"[c->component], 0 });
     pg_json_open (j, "peak", '{');
     pg_json_number (j, "force", k->force);
     pg_json_number (j, "displacement", k->displacement);
@@ -260,7 +266,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, gauge[g]);
     pg_json_shut (j);
     pg_json_shut (j);
-    if (r->grows) pg_json_count (j, "rows_not_judged", k->judged ? k->left_out : r->npoint);
+    if (r->tips.grows) pg_json_count (j, "rows_not_judged", k->judged ? k->left_out : c->npoint);
     pg_json_number (j, "stiffness_initial", k->initial);
     pg_json_number (j, "stiffness_at_peak", k->secant);
     pg_json_shut (j);
@@ -269,15 +275,15 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
 /* The peak in words: force, displacement, step, time or load factor, and the gauges there. */
 static void tell_peak (const pg_result *r, char *out, size_t size)
 {
-    const result_peak *k = &r->peak;
+    const result_peak *k = &r->curve.peak;
     const pg_problem *p = r->problem;
-    const double *gauge = r->curve_more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
+    const double *gauge = r->curve.more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
     char force[48], place[48], time[48];
     pg_picture_quantity (k->force, "N", force, sizeof force);
     pg_picture_quantity (k->displacement, "m", place, sizeof place);
     pg_picture_time (k->time, time, sizeof time);
     int n = snprintf (out, size, "peak load: %s (force of %s along %c) at displacement %s (step %.0f, ",
-                      force, p->load[r->curve_load].name, "xyz"[r->curve_component], place, k -> step);
+                      force, p->load[r->curve.load].name, "xyz"[r->curve.component], place, k -> step);
     n += r->dynamic ? snprintf (out + n, size - (size_t) n, "time %s)", time)
                     : snprintf (out + n, size - (size_t) n, "load factor %.4g)", k->factor);
     for (size_t g = 0; g < p->ngauge && (size_t) n < size; g++) {
@@ -299,7 +305,7 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
     pg_picture_quantity (r->problem->dim == 2 ? c->length : c->area, r->problem->dim == 2 ? "m" : "m2",
                          length, sizeof length);
     pg_picture_quantity (c->dissipated, "J/m2", spent, sizeof spent);
-    if (r->grows) {
+    if (r->tips.grows) {
         double ratio = pg_result_paths_ratio (r);
         int n = snprintf (out, size, "new crack: %s %s; dissipated energy per area of it %s",
                           r->problem->dim == 2 ? "length" : "area", length, spent);
@@ -321,7 +327,7 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
 /* Lines that do not apply are skipped, so k counts those that exist. */
 int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 {
-    const result_peak *p = &r->peak;
+    const result_peak *p = &r->curve.peak;
     char first[48], second[48];
     int stiff = p->found && isfinite (p->initial) && isfinite (p->secant);
     out[0] = 0;
@@ -342,34 +348,35 @@ pg_status pg_result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;
     double *x = NULL, *y = NULL;
-    const pg_load *load = &r->problem->load[r->curve_load];
+    const pg_load *load = &r->problem->load[r->curve.load];
     char ylabel[128], xlabel[128], path[4096], force[48], place[48], note[128];
     int events = by_events (r), rest = from_rest (r->problem);
     size_t n = 0, peak = 0;
-    snprintf (ylabel, sizeof ylabel, "force of %s along %c (N)", load->name, "xyz"[r->curve_component]);
+    snprintf (ylabel, sizeof ylabel, "force of %s along %c (N)", load->name, "xyz"[r->curve.component]);
     snprintf (xlabel, sizeof xlabel, "mean displacement of %s along %c (m)", load->name,
-              "xyz"[r->curve_component]);
-    PG_ALLOC (x, 2 * r->npoint + 2);
-    PG_ALLOC (y, 2 * r->npoint + 2);
+              "xyz"[r->curve.component]);
+    PG_ALLOC (x, 2 * r->curve.npoint + 2);
+    PG_ALLOC (y, 2 * r->curve.npoint + 2);
     if (events)
-        n = pg_envelope (r->npoint, r->curve_x, r->curve_y, rest && pg_problem_proportional (r->problem), x,
+        n = pg_envelope (r->curve.npoint, r->curve.x, r->curve.y,
+                         rest && pg_problem_proportional (r->problem), x,
                          y, &peak);
     else {
         n = (size_t) rest;                             /* the origin */
-        for (size_t i = 0; i < r->npoint; i++) x[n] = r->curve_x[i], y[n++] = r->curve_y[i];
+        for (size_t i = 0; i < r->curve.npoint; i++) x[n] = r->curve.x[i], y[n++] = r->curve.y[i];
     }
-    pg_picture_quantity (r->peak.force, "N", force, sizeof force);
-    pg_picture_quantity (r->peak.displacement, "m", place, sizeof place);
+    pg_picture_quantity (r->curve.peak.force, "N", force, sizeof force);
+    pg_picture_quantity (r->curve.peak.displacement, "m", place, sizeof place);
     snprintf (note, sizeof note, "peak %s at %s", force, place);
     pg_curve curve = { "at rising displacement", n, x, y, PG_CURVE_LINE },
-             path_of_events = { "path of events", r->npoint, r->curve_x, r->curve_y, PG_CURVE_LINE };
-    pg_chart_mark mark = { 0, r->peak.displacement, r->peak.force, note };
+        path_of_events = { "path of events", r->curve.npoint, r->curve.x, r->curve.y, PG_CURVE_LINE };
+    pg_chart_mark mark = { 0, r->curve.peak.displacement, r->curve.peak.force, note };
     pg_chart_style style = { .title = r->problem->title,
                              .xlabel = xlabel,
                              .ylabel = ylabel,
-                             .npale = events && r->npoint > 1,
+        .npale = events && r->curve.npoint > 1,
                              .pale = &path_of_events,
-                             .nmark = (size_t) r->peak.found,
+        .nmark = (size_t) r->curve.peak.found,
                              .marks = &mark,
                              .zero = 1 };
     snprintf (path, sizeof path, "%s/load_displacement.png", r->folder);

@@ -10,19 +10,20 @@
  * fail. */
 static pg_status count_blocks (pg_result *r)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     const pg_subdomain *s = r->problem->cloud.subdomain;
     const int *block = r->problem->cloud.block;
     double most = 0, *count = NULL;
     for (size_t i = 0; i < s->n; i++) if (s->owned[i] && block[i] > most) most = block[i];
     PG_TRY (pg_ranks_most (1, &most));
-    size_t n = r->share.nblock = (size_t) most + 1;
+    size_t n = f->share.nblock = (size_t) most + 1;
     PG_ALLOC (count, n);
-    PG_ALLOC (r->in_block, n);
-    r->share.in_block = r->in_block;
+    PG_ALLOC (f->in_block, n);
+    f->share.in_block = f->in_block;
     for (size_t i = 0; i < s->n; i++) if (s->owned[i]) count[block[i]]++;
     PG_TRY (pg_ranks_sum (n, count));
-    for (size_t k = 0; k < n; k++) r->in_block[k] = (int64_t) count[k];
+    for (size_t k = 0; k < n; k++) f->in_block[k] = (int64_t) count[k];
 done:
     pg_free (count);
     return status;
@@ -50,21 +51,22 @@ void pg_result_fields_check (const pg_scene *scene)
 
 pg_status pg_result_fields_prepare (pg_result *r, const pg_scene *scene)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     const pg_cloud *cloud = &r->problem->cloud;
-    r->writer = pg_writer_find (pg_scene_text (scene, "output.format"));
+    f->writer = pg_writer_find (pg_scene_text (scene, "output.format"));
     snprintf (r->whole, sizeof r->whole, "%s%s", r->folder, pg_rank () ? "/../.." : "");
-    r->request = (pg_field_request) { .folder = r->whole,
+    f->request = (pg_field_request) { .folder = r->whole,
                                       .title = r->problem->title,
                                       .cloud = cloud,
-                                      .nfield = r->nfield,
-                                      .field = r->field };
+        .nfield = f->nfield,
+        .field = f->field };
     if (!cloud->subdomain) return PG_OK;
-    r->share = (pg_field_share) { .part = pg_rank (),
+    f->share = (pg_field_share) { .part = pg_rank (),
                                   .size = pg_rank_count (),
                                   .joined = pg_result_joins (scene, (double) cloud->subdomain->total),
                                   .total = cloud->subdomain->total };
-    r->request.cloud = &r->own, r->request.share = &r->share;
+    f->request.cloud = &f->own, f->request.share = &f->share;
     PG_TRY (count_blocks (r));
 done:
     return status;
@@ -77,7 +79,7 @@ static pg_status copy_own (pg_result *r, int64_t **number)
     const pg_cloud *all = &r->problem->cloud;
     const pg_subdomain *s = all->subdomain;
     size_t dim = (size_t) all->dim, n = 0;
-    pg_cloud *own = &r->own;
+    pg_cloud *own = &r->fields.own;
     *own = *all;
     own->x = own->volume = own->size = own->metric = NULL, own->block = NULL, own->subdomain = NULL;
     own->n = s->nowned;
@@ -97,15 +99,16 @@ done:
 
 pg_status pg_result_fields_open (pg_result *r, const result_marks *from)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     int64_t *number = NULL;
     const pg_field_marks at = from ? (pg_field_marks) { from->moments, from->keep } : (pg_field_marks) { 0 };
-    if (pg_rank () && !r->request.share) return PG_OK;
-    if (r->request.share) PG_TRY (copy_own (r, &number));
-    r->share.number = number;
-    PG_TRY (r->writer->open (&r->output, &r->request, from ? &at : NULL));
+    if (pg_rank () && !f->request.share) return PG_OK;
+    if (f->request.share) PG_TRY (copy_own (r, &number));
+    f->share.number = number;
+    PG_TRY (f->writer->open (&f->output, &f->request, from ? &at : NULL));
 done:
-    r->share.number = NULL;
+    f->share.number = NULL;
     pg_free (number);
     return status;
 }
@@ -125,31 +128,34 @@ void pg_result_keep_own (const pg_result *r, size_t components, double *value)
 /* What one rank cannot write no rank has written. */
 pg_status pg_result_fields_write (pg_result *r, double time)
 {
-    pg_status status = r->output ? r->writer->step (r->output, r->moments, time, r->field) : PG_OK;
+    result_fields *f = &r->fields;
+    pg_status status = f->output ? f->writer->step (f->output, f->moments, time, f->field) : PG_OK;
     PG_TRY (pg_ranks_agree (status));
-    r->moments++;
-    r->time = time;
+    f->moments++;
+    f->time = time;
 done:
     return status;
 }
 
 pg_status pg_result_fields_sync (const pg_result *r)
 {
+    const result_fields *f = &r->fields;
     char path[4096];
-    if (!r->output) return PG_OK;
-    return r->writer->sync ? r->writer->sync (r->output)
-                           : pg_file_sync (pg_result_path (r, r->writer->file, path, sizeof path));
+    if (!f->output) return PG_OK;
+    return f->writer->sync ? f->writer->sync (f->output)
+                           : pg_file_sync (pg_result_path (r, f->writer->file, path, sizeof path));
 }
 
 /* All have written their last moment. */
 pg_status pg_result_fields_complete (pg_result *r, const pg_state *state)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     pg_crack_face *face = NULL;
     size_t n = 0;
-    int more = r->output && r->writer->prepare;
+    int more = f->output && f->writer->prepare;
     PG_TRY (pg_ranks_agree (more ? pg_result_paths_faces (r, state, &n, &face) : PG_OK));
-    PG_TRY (pg_ranks_agree (more ? r->writer->prepare (r->output, n, face) : PG_OK));
+    PG_TRY (pg_ranks_agree (more ? f->writer->prepare (f->output, n, face) : PG_OK));
 done:
     pg_free (face);
     return status;
@@ -157,6 +163,7 @@ done:
 
 pg_status pg_result_fields_finish (const pg_result *r, int done)
 {
-    if (!r->output || !r->writer->finish) return PG_OK;
-    return r->writer->finish (r->request.folder, r->request.share, done);
+    const result_fields *f = &r->fields;
+    if (!f->output || !f->writer->finish) return PG_OK;
+    return f->writer->finish (f->request.folder, f->request.share, done);
 }

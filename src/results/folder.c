@@ -346,7 +346,7 @@ void pg_result_drop_earlier (const pg_result *r)
     }
     snprintf (path, sizeof path, "%s/ranks", r->folder);
     if (pg_rank_count () == 1) rmdir (path);
-    pg_writer_clear (r->writer, r->folder, r->request.share ? r->share.size : 0);
+    pg_writer_clear (r->fields.writer, r->folder, r->fields.request.share ? r->fields.share.size : 0);
 }
 
 /* Ranks that were killed one by one may have left gaps between the numbers. */

@@ -46,26 +46,26 @@ void pg_result_paths_check (const pg_scene *scene, const pg_problem *p)
 
 void pg_result_paths_read (pg_result *r, const pg_scene *scene)
 {
-    r->grows = pg_problem_grows (r->problem);
-    r->measuring = pg_scene_bool (scene, "output.stress_intensity");
+    r->tips.grows = pg_problem_grows (r->problem);
+    r->tips.measuring = pg_scene_bool (scene, "output.stress_intensity");
 }
 
 /* Are there columns of tips? */
-static int has_tips (const pg_result *r) { return r->grows || r->measuring; }
+static int has_tips (const pg_result *r) { return r->tips.grows || r->tips.measuring; }
 
 /* ---- history.csv --------------------------------------------------------------------------------------- */
 size_t pg_result_paths_columns (const pg_result *r)
 {
     if (r->problem->dim == 3) return pg_result_surfaces_columns (r);
-    return (size_t) r->grows + (has_tips (r) ? PER_TIP * r->problem->ntip : 0);
+    return (size_t) r->tips.grows + (has_tips (r) ? PER_TIP * r->problem->ntip : 0);
 }
 
 void pg_result_paths_column (const pg_result *r, size_t i, char *out, size_t size)
 {
     if (r->problem->dim == 3) pg_result_surfaces_column (r, i, out, size);
-    else if (r->grows && i == 0) snprintf (out, size, "crack.length [m]");
+    else if (r->tips.grows && i == 0) snprintf (out, size, "crack.length [m]");
     else {
-        i -= (size_t) r->grows;
+        i -= (size_t) r->tips.grows;
         snprintf (out, size, "tip.%ld.%s", r->problem->tip[i / PER_TIP].id, tip_columns[i % PER_TIP]);
     }
 }
@@ -85,7 +85,7 @@ static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_
                              .utilisation = NAN };
     if (known && t->open) *out = *known;
     out->id = t->id, out->x[0] = t->x[0], out->x[1] = t->x[1];
-    if (known || !r->measuring || !t->open) goto done;
+    if (known || !r->tips.measuring || !t->open) goto done;
     pg_tip_faces faces;
     int touch = pg_solver_tip_faces (r->solver, state, tip, &faces);
     PG_TRY (pg_tip_measure_faces (&field, r->problem, force, self, state, tip, 1, &d, &time,
@@ -102,8 +102,8 @@ done:
 static pg_status measure_tips (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
-    PG_GROW (r->tip_value, r->cap_tip_value, state->paths->ntip);
-    for (size_t t = 0; t < state->paths->ntip; t++) PG_TRY (values_of (r, state, t, &r->tip_value[t]));
+    PG_GROW (r->tips.value, r->tips.cap_value, state->paths->ntip);
+    for (size_t t = 0; t < state->paths->ntip; t++) PG_TRY (values_of (r, state, t, &r->tips.value[t]));
 done:
     return status;
 }
@@ -116,9 +116,9 @@ pg_status pg_result_paths_row (pg_result *r, const pg_state *state, double *row)
     if (r->problem->dim == 3) return pg_result_surfaces_row (r, state, row);
     if (!has_tips (r) || !state->paths) return PG_OK;
     PG_TRY (measure_tips (r, state));
-    if (r->grows) row[n++] = state->paths->length;
+    if (r->tips.grows) row[n++] = state->paths->length;
     for (size_t t = 0; t < r->problem->ntip; t++) {
-        const pg_tip_values *v = &r->tip_value[t];
+        const pg_tip_values *v = &r->tips.value[t];
         row[n++] = v->J, row[n++] = v->K[0], row[n++] = v->K[1], row[n++] = v->x[0], row[n++] = v->x[1];
     }
 done:
@@ -130,6 +130,7 @@ done:
  * first rows. */
 pg_status pg_result_paths_create (pg_result *r, const result_marks *from)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     char path[4096];
     const pg_cracks *cracks = pg_state_cracks (r->problem, NULL);
@@ -141,16 +142,16 @@ pg_status pg_result_paths_create (pg_result *r, const result_marks *from)
     if (r->problem->dim == 3) return pg_result_surfaces_create (r, from);
     snprintf (path, sizeof path, "%s/tips.csv", r->folder);
     if (has_tips (r))
-        PG_TRY (from ? pg_table_open (&r->tip_rows, path, ALL_TIP_COLUMNS, all_tip_columns, from->tips)
-                     : pg_table_create (&r->tip_rows, path, ALL_TIP_COLUMNS, all_tip_columns));
+        PG_TRY (from ? pg_table_open (&t->rows, path, ALL_TIP_COLUMNS, all_tip_columns, from->tips)
+                     : pg_table_create (&t->rows, path, ALL_TIP_COLUMNS, all_tip_columns));
     snprintf (path, sizeof path, "%s/cracks.csv", r->folder);
-    if (!r->grows) goto done;
-    PG_TRY (from ? pg_table_open (&r->pieces, path, PIECE_COLUMNS, piece_columns, from->pieces)
-                 : pg_table_create (&r->pieces, path, PIECE_COLUMNS, piece_columns));
-    r->npiece = from ? from->npiece : (long) cracks->n;
+    if (!t->grows) goto done;
+    PG_TRY (from ? pg_table_open (&t->pieces, path, PIECE_COLUMNS, piece_columns, from->pieces)
+                 : pg_table_create (&t->pieces, path, PIECE_COLUMNS, piece_columns));
+    t->npiece = from ? from->npiece : (long) cracks->n;
     for (size_t k = 0; !from && k < cracks->n; k++) {
         const double *x = cracks->crack[k].vertex;
-        PG_TRY (pg_table_row (r->pieces, (double[PIECE_COLUMNS]) { 0, 0, (double) k + 1, (double) k + 1, x[0],
+        PG_TRY (pg_table_row (t->pieces, (double[PIECE_COLUMNS]) { 0, 0, (double) k + 1, (double) k + 1, x[0],
                                                                    x[1], x[2], x[3], 0 }));
     }
 done:
@@ -161,15 +162,16 @@ done:
  * is known already. */
 static pg_status write_pieces (pg_result *r, const pg_state *state, const pg_step *step)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     const pg_crack_paths *w = state->paths;
-    for (; r->npiece < (long) w->cracks.n; r->npiece++) {
-        size_t k = (size_t) r->npiece;
+    for (; t->npiece < (long) w->cracks.n; t->npiece++) {
+        size_t k = (size_t) t->npiece;
         const double *x = w->cracks.crack[k].vertex;
         if (w->owner[k] == 0 && w->parent[k] != SIZE_MAX) continue;
         const double row[PIECE_COLUMNS] = { (double) step->number, step->stamp, (double) w->path[k] + 1,
                                             (double) k + 1, x[0], x[1], x[2], x[3], (double) w->owner[k] };
-        PG_TRY (pg_table_row (r->pieces, row));
+        PG_TRY (pg_table_row (t->pieces, row));
     }
 done:
     return status;
@@ -181,14 +183,14 @@ pg_status pg_result_paths_write (pg_result *r, const pg_state *state, const pg_s
     pg_status status = PG_OK;
     if (r->problem->dim == 3) return pg_result_surfaces_write (r, state, step);
     if (!has_tips (r) || !state->paths) return PG_OK;
-    if (r->grows) PG_TRY (write_pieces (r, state, step));
+    if (r->tips.grows) PG_TRY (write_pieces (r, state, step));
     for (size_t i = 0; i < state->paths->ntip; i++) {
         const pg_tip *t = &state->paths->tip[i];
-        const pg_tip_values *v = &r->tip_value[i];
+        const pg_tip_values *v = &r->tips.value[i];
         const double row[ALL_TIP_COLUMNS] = { (double) step->number, step->time, step->factor, (double) t->id,
                                               t->open, t->x[0], t->x[1], t->grown, v->J, v->K[0], v->K[1],
                                               v->T, v->uncertainty, v->utilisation };
-        PG_TRY (pg_table_row (r->tip_rows, row));
+        PG_TRY (pg_table_row (r->tips.rows, row));
     }
 done:
     return status;
@@ -206,7 +208,7 @@ void pg_result_paths_json (pg_json *j, const pg_result *r, const pg_state *state
 {
     const pg_crack_paths *w = state->paths;
     if (r->problem->dim == 3) pg_result_surfaces_json (j, r, state);
-    if (!r->grows || !w) return;
+    if (!r->tips.grows || !w) return;
     pg_json_number (j, "crack_length", w->length);
     pg_json_open (j, "fracture", '{');
     pg_json_number (j, "area", w->length * r->problem->cloud.thickness);
@@ -229,9 +231,10 @@ void pg_result_paths_json (pg_json *j, const pg_result *r, const pg_state *state
 
 void pg_result_paths_close (pg_result *r)
 {
-    pg_table_close (&r->pieces);
-    pg_table_close (&r->tip_rows);
-    pg_free (r->tip_value), pg_free (r->front_value), pg_quadrature_clear (&r->facet_points);
+    result_tips *t = &r->tips;
+    pg_table_close (&t->pieces);
+    pg_table_close (&t->rows);
+    pg_free (t->value), pg_free (t->front_value), pg_quadrature_clear (&t->facet_points);
 }
 
 /* ---- reading back -------------------------------------------------------------------------------------- */

@@ -25,24 +25,25 @@ static const char *const front_columns[] = { "step [1]", "front [1]", "vertex [1
 enum { TRIANGLE_COLUMNS = sizeof triangle_columns / sizeof *triangle_columns,
        FRONT_COLUMNS = sizeof front_columns / sizeof *front_columns };
 
-static int has_fronts (const pg_result *r) { return r->grows || r->measuring; }
+static int has_fronts (const pg_result *r) { return r->tips.grows || r->tips.measuring; }
 
 /* ---- history.csv --------------------------------------------------------------------------------------- */
 size_t pg_result_surfaces_columns (const pg_result *r)
 {
-    return (size_t) r->grows + (has_fronts (r) ? r->problem->nfront : 0);
+    return (size_t) r->tips.grows + (has_fronts (r) ? r->problem->nfront : 0);
 }
 
 void pg_result_surfaces_column (const pg_result *r, size_t i, char *out, size_t size)
 {
-    if (r->grows && i == 0) snprintf (out, size, "crack.area [m^2]");
+    if (r->tips.grows && i == 0) snprintf (out, size, "crack.area [m^2]");
     else
-        snprintf (out, size, "front.%ld.J_max [J/m^2]", r->problem->front[i - (size_t) r->grows].id);
+        snprintf (out, size, "front.%ld.J_max [J/m^2]", r->problem->front[i - (size_t) r->tips.grows].id);
 }
 
 /* What the vertices of an open front bear, measured here. */
 static pg_status measure_front (pg_result *r, const pg_state *state, size_t front, const pg_front *f)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     const double *d = state->d, time = r->dynamic ? state->time : state->factor, one = 1;
     pg_tip_field *field = NULL;
@@ -54,9 +55,9 @@ static pg_status measure_front (pg_result *r, const pg_state *state, size_t fron
     int touch = pg_solver_front_faces (r->solver, state, front, faces);
     PG_TRY (pg_front_measure_faces (field, r->problem, force, self, state, front, 1, &d, &time,
                                     touch ? faces : NULL));
-    PG_GROW (r->front_value, r->cap_front_value, r->nfront_value + f->n);
+    PG_GROW (t->front_value, t->cap_front_value, t->nfront_value + f->n);
     for (size_t i = 0; i < f->n; i++) {
-        pg_front_values *v = &r->front_value[r->nfront_value++];
+        pg_front_values *v = &t->front_value[t->nfront_value++];
         *v = (pg_front_values) { .front = f->id, .vertex = i, .J = NAN, .K = { NAN, NAN, NAN }, .T = NAN,
                                  .utilisation = NAN };
         memcpy (v->x, f->x + 3*i, sizeof v->x);
@@ -72,18 +73,19 @@ done:
 /* What the solver has measured in its search for growth, or else here, once for both tables. */
 static pg_status read_fronts (pg_result *r, const pg_state *state)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     size_t n = 0, nfront;
     const pg_front_values *known = pg_solver_fronts (r->solver, &n);
     const pg_front *front = pg_fronts_of_state (r->problem, state, &nfront);
-    r->nfront_value = 0;
+    t->nfront_value = 0;
     if (n) {
-        PG_GROW (r->front_value, r->cap_front_value, n);
-        memcpy (r->front_value, known, n * sizeof *known);
-        r->nfront_value = n;
+        PG_GROW (t->front_value, t->cap_front_value, n);
+        memcpy (t->front_value, known, n * sizeof *known);
+        t->nfront_value = n;
         goto done;
     }
-    for (size_t f = 0; r->measuring && f < nfront; f++)
+    for (size_t f = 0; t->measuring && f < nfront; f++)
         if (front[f].open) PG_TRY (measure_front (r, state, f, &front[f]));
 done:
     return status;
@@ -96,9 +98,9 @@ static double largest_J (const pg_result *r, const pg_state *state, long of)
     const pg_front *front = pg_fronts_of_state (r->problem, state, &nfront);
     double J = NAN;
     for (size_t f = 0; f < nfront; f++)
-        for (size_t i = 0; front[f].of == of && i < r->nfront_value; i++)
-            if (r->front_value[i].front == front[f].id)
-                J = fmax (J, r->front_value[i].J);     /* of NAN and a number: the number */
+        for (size_t i = 0; front[f].of == of && i < r->tips.nfront_value; i++)
+            if (r->tips.front_value[i].front == front[f].id)
+                J = fmax (J, r->tips.front_value[i].J);     /* of NAN and a number: the number */
     return J;
 }
 
@@ -108,7 +110,7 @@ pg_status pg_result_surfaces_row (pg_result *r, const pg_state *state, double *r
     size_t n = 0;
     if (!has_fronts (r)) return PG_OK;
     PG_TRY (read_fronts (r, state));
-    if (r->grows) row[n++] = state->surfaces ? state->surfaces->area : 0;
+    if (r->tips.grows) row[n++] = state->surfaces ? state->surfaces->area : 0;
     for (size_t f = 0; f < r->problem->nfront; f++) row[n++] = largest_J (r, state, r->problem->front[f].id);
 done:
     return status;
@@ -122,7 +124,7 @@ static pg_status put_triangle (pg_result *r, const double when[2], long front, s
     double row[TRIANGLE_COLUMNS] = { when[0], when[1], (double) front, (double) k + 1 };
     memcpy (row + 4, a, 3 * sizeof *a), memcpy (row + 7, b, 3 * sizeof *b);
     memcpy (row + 10, c, 3 * sizeof *c);
-    return pg_table_row (r->pieces, row);
+    return pg_table_row (r->tips.pieces, row);
 }
 
 /* The cracks of the scene, as fans about their middle. */
@@ -144,18 +146,19 @@ done:
 
 pg_status pg_result_surfaces_create (pg_result *r, const result_marks *from)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     char path[4096];
     const pg_cracks *cracks = pg_state_cracks (r->problem, NULL);
     snprintf (path, sizeof path, "%s/fronts.csv", r->folder);
     if (has_fronts (r))
-        PG_TRY (from ? pg_table_open (&r->tip_rows, path, FRONT_COLUMNS, front_columns, from->tips)
-                     : pg_table_create (&r->tip_rows, path, FRONT_COLUMNS, front_columns));
+        PG_TRY (from ? pg_table_open (&t->rows, path, FRONT_COLUMNS, front_columns, from->tips)
+                     : pg_table_create (&t->rows, path, FRONT_COLUMNS, front_columns));
     snprintf (path, sizeof path, "%s/cracks.csv", r->folder);
-    if (!r->grows) goto done;
-    PG_TRY (from ? pg_table_open (&r->pieces, path, TRIANGLE_COLUMNS, triangle_columns, from->pieces)
-                 : pg_table_create (&r->pieces, path, TRIANGLE_COLUMNS, triangle_columns));
-    r->npiece = from ? from->npiece : (long) cracks->n;
+    if (!t->grows) goto done;
+    PG_TRY (from ? pg_table_open (&t->pieces, path, TRIANGLE_COLUMNS, triangle_columns, from->pieces)
+                 : pg_table_create (&t->pieces, path, TRIANGLE_COLUMNS, triangle_columns));
+    t->npiece = from ? from->npiece : (long) cracks->n;
     if (!from) PG_TRY (put_first (r, cracks));
 done:
     return status;
@@ -164,17 +167,18 @@ done:
 /* After pg_result_surfaces_row, whose values it writes. */
 pg_status pg_result_surfaces_write (pg_result *r, const pg_state *state, const pg_step *step)
 {
+    result_tips *t = &r->tips;
     pg_status status = PG_OK;
     const pg_crack_surfaces *w = state->surfaces;
     const double when[2] = { (double) step->number, step->stamp };
-    for (; r->grows && w && r->npiece < (long) w->cracks.n; r->npiece++) {
-        size_t k = (size_t) r->npiece;
+    for (; t->grows && w && t->npiece < (long) w->cracks.n; t->npiece++) {
+        size_t k = (size_t) t->npiece;
         const double *x = w->cracks.crack[k].vertex;
         PG_TRY (put_triangle (r, when, w->owner[k - w->nfirst], k, x, x + 3, x + 6));
     }
-    for (size_t i = 0; has_fronts (r) && i < r->nfront_value; i++) {
-        const pg_front_values *v = &r->front_value[i];
-        PG_TRY (pg_table_row (r->tip_rows, (double[FRONT_COLUMNS]) { (double) step->number, (double) v->front,
+    for (size_t i = 0; has_fronts (r) && i < t->nfront_value; i++) {
+        const pg_front_values *v = &t->front_value[i];
+        PG_TRY (pg_table_row (t->rows, (double[FRONT_COLUMNS]) { (double) step->number, (double) v->front,
                                                                      (double) v->vertex + 1, v->x[0], v->x[1],
                                                                      v->x[2], v->J, v->K[0], v->K[1],
                                                                      v->K[2] }));
@@ -197,7 +201,7 @@ static double front_length (const pg_front *f)
 void pg_result_surfaces_json (pg_json *j, const pg_result *r, const pg_state *state)
 {
     const pg_crack_surfaces *w = state->surfaces;
-    if (!r->grows || !w) return;
+    if (!r->tips.grows || !w) return;
     pg_json_number (j, "crack_area", w->area);
     pg_json_open (j, "fracture", '{');
     pg_json_number (j, "area", w->area);

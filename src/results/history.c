@@ -67,7 +67,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
            most = 14 + UNSTABLE_COLUMNS + 9 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage
-                  + r->ntip + tips + pg_result_crack_columns (r) + 1;
+                  + r->tips.ntip + tips + pg_result_crack_columns (r) + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -93,7 +93,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
         }
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
-    for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
+    for (size_t t = 0; t < r->tips.ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]",
+                                                        r->tips.tip[t].name);
     for (size_t k = 0; k < tips; k++) pg_result_paths_column (r, k, name[n++], sizeof *name);
     if (pg_result_crack_columns (r)) pg_result_crack_column (r, name[n++], sizeof *name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
@@ -159,12 +160,12 @@ static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_l
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
-    pg_quadrature *q = &r->facet_points;
+    pg_quadrature *q = &r->tips.facet_points;
     size_t dim = (size_t) p->dim, n;
     double *x = NULL, *u = NULL, *area = NULL, sum[4] = { 0 };
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    if (!q->n) PG_TRY (pg_facet_points (q, &p->cells, p->cracks.n > 0 || r->grows ? 2 : 1));
+    if (!q->n) PG_TRY (pg_facet_points (q, &p->cells, p->cracks.n > 0 || r->tips.grows ? 2 : 1));
     n = points_of (p, load->set, q, NULL, NULL);
     PG_ALLOC (x, dim * n);
     PG_ALLOC (u, 3 * n);
@@ -333,6 +334,7 @@ done:
  * anything is written, which may fail on one of them. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
+    result_curve *c = &r->curve;
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
     const pg_statistics *report = pg_solver_report_now (r->solver);
@@ -357,7 +359,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             double u;
             PG_TRY (moved_by (p, load, k, r->dynamic ? step->time : step->factor, moved, turned,
                               on_facets ? facets : NULL, &u));
-            if ((int) l == r->curve_load && k == r->curve_component) x = n + 1, y = n;
+            if ((int) l == c->load && k == c->component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }
         for (int k = first_moment (p, l); k < 3; k++)
@@ -369,7 +371,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             int load = p->platen[i].motion >= 0 ? p->platen[i].motion : p->platen[i].force;
             if (!platen_has (p, k)) continue;
             double f = i < platens ? platen[i].force[k] : 0, u = i < platens ? platen[i].motion[k] : 0;
-            if (load >= 0 && load == r->curve_load && k == r->curve_component) x = n + 1, y = n;
+            if (load >= 0 && load == c->load && k == c->component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }
     const double *gauges = r->row + n;
@@ -377,7 +379,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     PG_TRY (pg_result_averages_row (r, state, r->row + n, r->u));
     n += r->naverage;
     PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
-    n += r->ntip;
+    n += r->tips.ntip;
     PG_TRY (pg_result_paths_row (r, state, r->row + n));
     PG_TRY (pg_result_crack_row (r, state, r->row + n + pg_result_paths_columns (r)));
     /* of cracks every rank knows the whole */
@@ -398,7 +400,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     PG_TRY (pg_ranks_sum (n, r->row));
     PG_TRY (pg_ranks_sum (1, &shared));
     if (pg_ranks_now ()) PG_TRY (pg_result_collect_broken (r, step, &nbroken, &collected));
-    if (r->curve_load >= 0) PG_TRY (pg_result_curve_row (r, r->row[x], r->row[y], gauges, step));
+    if (c->load >= 0) PG_TRY (pg_result_curve_row (r, r->row[x], r->row[y], gauges, step));
     PG_TRY (pg_table_row (r->history, r->row));
     PG_TRY (event_rows (r, step, nbroken, collected ? collected : step->broken, shared));
     PG_TRY (pg_result_paths_write (r, state, step));

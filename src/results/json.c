@@ -37,7 +37,7 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_number (j, "solve", r->seconds[PG_SECONDS_SOLVE]);
     pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
     pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);
-    pg_json_number (j, "write", res->seconds);
+    pg_json_number (j, "write", res->progress.seconds);
     if (res->problem->patch.measured) pg_json_number (j, "patch", res->problem->patch.seconds);
     if (e) pg_json_number (j, "estimate", e->seconds);
     if (res->measured) pg_json_number (j, "error", res->errors.seconds);
@@ -258,7 +258,7 @@ static void crack_block (pg_json *j, const pg_result *res)
 {
     if (!res->crack.found) return;
     pg_json_open (j, "new_crack", '{');
-    pg_json_text (j, "kind", res->grows ? "facets" : "estimate");
+    pg_json_text (j, "kind", res->tips.grows ? "facets" : "estimate");
     pg_json_number (j, "area", res->crack.area);
     if (res->problem->dim == 2) pg_json_number (j, "length", res->crack.length);
     /* of a relaxation it would hold fictitious damping */

@@ -142,22 +142,23 @@ done:
 /* Fields so far, of the points that are owned now, are written anew, where their format asks for it. */
 static pg_status divide_fields (pg_result *r, const parts_kept *w)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
-    const pg_writer *writer = r->writer;
-    const result_marks at = r->done;
+    const pg_writer *writer = f->writer;
+    const result_marks at = r->progress.done;
     size_t n;
     double *time = NULL;
     PG_TRY (pg_result_fields_open (r, writer->read ? NULL : &at));
-    if (!writer->read || !r->output) goto done;
+    if (!writer->read || !f->output) goto done;
     PG_TRY (writer->times (w->folder, w->divided ? w->count : 0, &n, &time));
     if ((long) n < at.moments)
         PG_FAIL (PG_E_FILE, "%s: %s has %zu moments, %ld are missing: it was changed since", w->folder,
                  writer->file, n, at.moments - (long) n);
     for (long m = 0; m < at.moments; m++) {
-        for (size_t k = 0; k < r->nfield; k++)
-            PG_TRY (parts_field (w, writer, m, r->field[k].name, (size_t) r->field[k].components,
-                                 r->value[k]));
-        PG_TRY (writer->step (r->output, m, time[m], r->field));
+        for (size_t k = 0; k < f->nfield; k++)
+            PG_TRY (parts_field (w, writer, m, f->field[k].name, (size_t) f->field[k].components,
+                                 f->value[k]));
+        PG_TRY (writer->step (f->output, m, time[m], f->field));
     }
 done:
     resumed_marks (r, &at);
@@ -189,7 +190,7 @@ static pg_status take (pg_result *r, resumed *m, parts_kept *w)
                            "not be written: go on among as many processes as before first", w->folder);
     PG_TRY (pg_ranks_agree (status));
     PG_TRY (pg_solver_move (r->solver, m->state, &moved));
-    m->rounds = r->rounds = 0;
+    m->rounds = r->progress.rounds = 0;
 done:
     return status;
 }
@@ -225,14 +226,14 @@ pg_status moved_resume (pg_result *r, resumed *m, parts_kept *w)
     if (whole) {
         PG_TRY (resumed_go_on (r, m));
     } else {
-        at = r->done;
+        at = r->progress.done;
         if (pg_rank () > 0 && pg_ranks_now ()) at.events = 0;          /* rank 0 has those of all */
         status = pg_result_history_create (r, &at);
         if (status == PG_OK) status = divide_fields (r, w);
         if (status == PG_OK) status = pg_result_remove (r, "report.json");
         PG_TRY (pg_ranks_agree (status));
-        r->done = pg_result_marks_now (r);
-        r->earlier = m->seconds;
+        r->progress.done = pg_result_marks_now (r);
+        r->progress.earlier = m->seconds;
     }
     PG_TRY (pg_result_checkpoint (r, m->state));
     PG_TRY (drop_others (r));

@@ -79,7 +79,7 @@ static pg_outline result_outline (const pg_result *r)
     const pg_problem *p = r->problem;
     if (p->part.mesh.n) return (pg_outline) { .mesh = p->dim == 2 ? &p->part.mesh : NULL };
     if (!p->lattice.dim || !p->body.n) return (pg_outline) { 0 };
-    return (pg_outline) { .body = &p->body, .lattice = r->stairs ? &p->lattice : NULL };
+    return (pg_outline) { .body = &p->body, .lattice = r->pictures.stairs ? &p->lattice : NULL };
 }
 
 /* Draws one picture. Stress, and ranges that are symmetric about zero, have a diverging scale.
@@ -123,8 +123,8 @@ done:
 static void miss_picture (pg_result *r, const char *path, pg_status status)
 {
     const char *reason = pg_last_error (), *slash = strrchr (path, '/');
-    if (status == PG_OK || strncmp (r->undrawn, reason, sizeof r->undrawn - 1) == 0) return;
-    snprintf (r->undrawn, sizeof r->undrawn, "%s", reason);
+    if (status == PG_OK || strncmp (r->pictures.undrawn, reason, sizeof r->pictures.undrawn - 1) == 0) return;
+    snprintf (r->pictures.undrawn, sizeof r->pictures.undrawn, "%s", reason);
     pg_solver_warn (r->solver, "pictures could not be drawn, %s among them: %s", slash ? slash + 1 : path,
                     reason);
 }
@@ -145,10 +145,10 @@ static void draw_all (pg_result *r, const pg_state *state, const char *within, c
     double *more = r->problem->dim == 3 ? pg_calloc (6 * n, sizeof *more) : NULL;
     double *work = more ? more : r->u, *u = more ? r->u : r->u + 3 * n;
     char path[4096];
-    for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) {
-        snprintf (path, sizeof path, "%s/%s%s%s.png", r->folder, within, r->picture[k].name, suffix);
+    for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->pictures.npicture; k++) {
+        snprintf (path, sizeof path, "%s/%s%s%s.png", r->folder, within, r->pictures.picture[k].name, suffix);
         pg_status status = r->problem->dim < 3 || more
-                               ? one_picture (r, state, &r->picture[k], path, work, u)
+                               ? one_picture (r, state, &r->pictures.picture[k], path, work, u)
                                : pg_error (PG_E_MEMORY, PG_HERE, "no memory for %zu values", 6 * n);
         list_picture (r, path, status, listed);
     }
@@ -163,7 +163,7 @@ void pg_result_draw_stage (pg_result *r, const pg_state *state)
     pg_status status = pg_folder_make (path);
     miss_picture (r, path, status);
     if (status != PG_OK) return;
-    snprintf (suffix, sizeof suffix, "_%04ld", r->moments - 1);
+    snprintf (suffix, sizeof suffix, "_%04ld", r->fields.moments - 1);
     draw_all (r, state, "stages/", suffix, 0);
 }
 
@@ -197,7 +197,7 @@ pg_status pg_result_measure (pg_result *r, const pg_state *state)
     PG_TRY (pg_errors_measure (&r->errors, r->reference, r->problem, &solution,
                                r->dynamic ? state->time : state->factor));
     r->measured = 1;
-    if (r->npicture && r->errors.difference && r->errors.norms.displacement)
+    if (r->pictures.npicture && r->errors.difference && r->errors.norms.displacement)
         error_picture (r, state);
 done:
     pg_sampler_clear (&solution);
@@ -208,9 +208,9 @@ done:
  * small run. A curve needs two points at least. */
 void pg_result_draw (pg_result *r, const pg_state *state)
 {
-    if (r->npicture == 0) return;
+    if (r->pictures.npicture == 0) return;
     draw_all (r, state, "", "", 1);
-    if (r->curve_load >= 0 && r->npoint > 1)
+    if (r->curve.load >= 0 && r->curve.npoint > 1)
         miss_picture (r, "load_displacement.png", pg_result_curve_picture (r));
     miss_picture (r, "tip.png", pg_result_tips_pictures (r));
 }

@@ -39,24 +39,25 @@ done:
  * the field between the points exactly. */
 static pg_status read_requests (pg_result *r, const pg_scene *scene)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     const char *name;
     int with_u = 0;
-    r->magnify = pg_scene_number (scene, "output.magnify");
+    r->pictures.magnify = pg_scene_number (scene, "output.magnify");
     r->estimating = pg_scene_bool (scene, "output.estimate")
                     && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
-    r->interval = pg_scene_number (scene, "output.checkpoint");
-    if (pg_scene_has (scene, "output.at.events")) r->every = pg_scene_integer (scene, "output.at.events");
+    r->progress.interval = pg_scene_number (scene, "output.checkpoint");
+    if (pg_scene_has (scene, "output.at.events")) f->every = pg_scene_integer (scene, "output.at.events");
     if (pg_scene_has (scene, "output.at.broken"))
-        r->broken_share = pg_scene_number (scene, "output.at.broken");
-    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
-        snprintf (r->field[r->nfield++].name, sizeof r->field->name, "%s", name);
+        f->broken_share = pg_scene_number (scene, "output.at.broken");
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && f->nfield < MOST_FIELDS; k++) {
+        snprintf (f->field[f->nfield++].name, sizeof f->field->name, "%s", name);
         with_u |= strcmp (name, "displacement") == 0;
     }
-    if (with_u && r->nfield < MOST_FIELDS && !r->problem->approx.type->interpolates)
-        snprintf (r->field[r->nfield++].name, sizeof r->field->name, "coefficient");
+    if (with_u && f->nfield < MOST_FIELDS && !r->problem->approx.type->interpolates)
+        snprintf (f->field[f->nfield++].name, sizeof f->field->name, "coefficient");
     PG_TRY (pg_result_views_read (r, scene));
-    for (size_t k = 0; k < r->nfield; k++) PG_TRY (prepare_field (&r->field[k], &r->value[k], r->problem));
+    for (size_t k = 0; k < f->nfield; k++) PG_TRY (prepare_field (&f->field[k], &f->value[k], r->problem));
 done:
     return status;
 }
@@ -86,13 +87,14 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
 {
     pg_status status = PG_OK;
     r->problem = problem, r->solver = solver;
-    r->opened = r->checkpoint_at = pg_seconds ();
+    r->progress.opened = r->progress.checkpoint_at = pg_seconds ();
     snprintf (r->folder, sizeof r->folder, "%s", folder);
     snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
     snprintf (r->scene, sizeof r->scene, "%.3000s", pg_scene_file (scene));
     PG_TRY (pg_scene_files (scene, &r->nnamed, &r->named));
     const pg_solver_options *settled = pg_solver_settled (solver);
-    r->length = ((settled->flags & PG_SOLVER_QUASI_STATIC) ? 1 : settled->end) / (double) settled->steps;
+    r->progress.length =
+        ((settled->flags & PG_SOLVER_QUASI_STATIC) ? 1 : settled->end) / (double) settled->steps;
     PG_TRY (read_requests (r, scene));
     PG_TRY (pg_result_averages_read (r, scene));
     PG_TRY (pg_result_tips_read (r, scene));
@@ -101,7 +103,7 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
     PG_TRY (pg_result_network_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
     pg_result_curve_choose (r);
-    r->next_broken = r->broken_share > 0 ? 1 : 0;
+    r->fields.next_broken = r->fields.broken_share > 0 ? 1 : 0;
     PG_TRY (pg_result_fields_prepare (r, scene));
 done:
     return status;
@@ -144,8 +146,8 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_result_copy_scene (folder, scene));
     PG_TRY (pg_result_history_create (r, NULL));
     PG_TRY (pg_result_fields_open (r, NULL));
-    r->done = pg_result_marks_now (r);
-    r->seconds += pg_seconds () - t0;
+    r->progress.done = pg_result_marks_now (r);
+    r->progress.seconds += pg_seconds () - t0;
     *out = r;
     r = NULL;
 done:
@@ -156,33 +158,36 @@ done:
 /* Read from the open files, so that marks and files cannot differ. */
 result_marks pg_result_marks_now (const pg_result *r)
 {
+    const result_tips *t = &r->tips;
+    const result_fields *f = &r->fields;
     result_marks m = { .history = pg_table_rows (r->history),
                        .events = pg_table_rows (r->events),
-                       .moments = r->moments,
-                       .keep = r->output ? r->writer->keep (r->output) : 0,
-                       .next_broken = r->next_broken,
-                       .points = (long) r->npoint,
-                       .last_written = r->last_written,
-                       .pieces = r->pieces ? pg_table_rows (r->pieces) : 0,
-                       .tips = r->tip_rows ? pg_table_rows (r->tip_rows) : 0,
-                       .npiece = r->npiece,
+        .moments = f->moments,
+        .keep = f->output ? f->writer->keep (f->output) : 0,
+        .next_broken = f->next_broken,
+        .points = (long) r->curve.npoint,
+        .last_written = f->last_written,
+        .pieces = t->pieces ? pg_table_rows (t->pieces) : 0,
+        .tips = t->rows ? pg_table_rows (t->rows) : 0,
+        .npiece = t->npiece,
                        .contact = r->contact ? pg_table_rows (r->contact) : 0,
-                       .stamp = r->stamp,
-                       .time = r->time };
+        .stamp = r->progress.stamp,
+        .time = f->time };
     return m;
 }
 
 /* All fields of the state, of the points that this process owns. */
 static pg_status compute_fields (pg_result *r, const pg_state *state)
 {
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    for (size_t k = 0; force->field && k < r->nfield; k++) {
+    for (size_t k = 0; force->field && k < f->nfield; k++) {
         const char *unit;
         int components;
-        PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
-        pg_result_keep_own (r, (size_t) r->field[k].components, r->value[k]);
+        PG_TRY (force->field (self, state, state->d, f->field[k].name, &components, &unit, f->value[k]));
+        pg_result_keep_own (r, (size_t) f->field[k].components, f->value[k]);
     }
 done:
     return status;
@@ -194,9 +199,9 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_ranks_agree (compute_fields (r, state)));
-    if (r->moments > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
+    if (r->fields.moments > 0 && !(time > r->fields.time)) time = nextafter (r->fields.time, INFINITY);
     PG_TRY (pg_result_fields_write (r, time));
-    if (r->stages && !pg_ranks_now ()) pg_result_draw_stage (r, state);
+    if (r->pictures.stages && !pg_ranks_now ()) pg_result_draw_stage (r, state);
 done:
     return status;
 }
@@ -211,12 +216,12 @@ static pg_status share_has_broken (pg_result *r, const pg_state *state, int *has
     const pg_family *f = &r->problem->rows[PG_NODES].family;
     double sum[2] = { (double) state->broken, s ? 0 : (double) state->nbond };
     *has = 0;
-    if (!(r->broken_share > 0)) return PG_OK;
+    if (!(r->fields.broken_share > 0)) return PG_OK;
     for (size_t i = 0; s && i < s->n; i++)
         if (s->owned[i]) sum[1] += (double) (f->start[i + 1] - f->start[i]);
     PG_TRY (pg_ranks_sum (2, sum));
-    if (sum[0] < r->broken_share * (double) r->next_broken * sum[1]) return PG_OK;
-    r->next_broken = (long) (sum[0] / (r->broken_share * sum[1])) + 1;
+    if (sum[0] < r->fields.broken_share * (double) r->fields.next_broken * sum[1]) return PG_OK;
+    r->fields.next_broken = (long) (sum[0] / (r->fields.broken_share * sum[1])) + 1;
     *has = 1;
 done:
     return status;
@@ -226,57 +231,62 @@ done:
  * last step towards the end of this one, by n / (n + 100) of its length, without reaching it. */
 static double time_within (const pg_result *r)
 {
-    return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100);
+    const result_progress *p = &r->progress;
+    return p->stamp + p->length * (double) p->rounds / ((double) p->rounds + 100);
 }
 
 /* The marks are taken before and after writing, so that a checkpoint in between knows how long
  * the files are. If writing fails, the stage is due again after the next round. */
 pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
 {
+    result_progress *p = &r->progress;
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    long next = r->next_broken;
-    r->rounds = so_far->iterations;
-    r->now = pg_result_marks_now (r);
-    PG_TRY (share_has_broken (r, state, &r->last_written));
-    if (r->last_written) status = write_fields (r, state, time_within (r));
-    if (status == PG_OK) r->now = pg_result_marks_now (r);
-    else r->last_written = 0, r->next_broken = next;
+    long next = f->next_broken;
+    p->rounds = so_far->iterations;
+    p->now = pg_result_marks_now (r);
+    PG_TRY (share_has_broken (r, state, &f->last_written));
+    if (f->last_written) status = write_fields (r, state, time_within (r));
+    if (status == PG_OK) p->now = pg_result_marks_now (r);
+    else f->last_written = 0, f->next_broken = next;
 done:
-    r->seconds += pg_seconds () - t0;
+    p->seconds += pg_seconds () - t0;
     return status;
 }
 
 /* The fields of a refused step stay, so that the last ones are not those of the last step then. */
 void pg_result_refused (pg_result *r)
 {
-    r->rounds = 0;
+    r->progress.rounds = 0;
     /* stages of the refused step stay the last */
-    r->last_written = r->done.last_written || r->time > r->stamp;
+    r->fields.last_written = r->progress.done.last_written || r->fields.time > r->progress.stamp;
 }
 
 /* `pending` keeps the step until all of it is written, on all ranks, so that a checkpoint after a full
  * disk can write it later. */
 pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
 {
+    result_progress *p = &r->progress;
+    result_fields *f = &r->fields;
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    r->done = pg_result_marks_now (r);
-    r->pending = *step, r->is_pending = 1;
-    r->rounds = 0;
-    r->last_written = 0;
-    r->stamp = step->stamp;
+    p->done = pg_result_marks_now (r);
+    p->pending = *step, p->is_pending = 1;
+    p->rounds = 0;
+    f->last_written = 0;
+    p->stamp = step->stamp;
     PG_TRY (pg_ranks_agree (pg_result_history_row (r, state, step)));
-    int due = r->every > 0 && step->event && state->events % r->every == 0;
+    int due = f->every > 0 && step->event && state->events % f->every == 0;
     int share;
     PG_TRY (share_has_broken (r, state, &share));
     due |= share || step->level;
     if (due) PG_TRY (write_fields (r, state, step->stamp));
-    r->last_written = due;
-    r->done = pg_result_marks_now (r);
-    r->is_pending = 0;
+    f->last_written = due;
+    p->done = pg_result_marks_now (r);
+    p->is_pending = 0;
 done:
-    r->seconds += pg_seconds () - t0;
+    p->seconds += pg_seconds () - t0;
     return status;
 }
 
@@ -346,13 +356,14 @@ done:
 pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
                             double total)
 {
+    result_progress *p = &r->progress;
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
     /* ended before anything was done: pictures would only show the body as the scene describes it */
-    int nothing = failure && state->step == 0 && r->rounds == 0;
+    int nothing = failure && state->step == 0 && p->rounds == 0;
     PG_TRY (pg_solver_share_report (r->solver));
-    if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
-    r->last_written = 1;
+    if (!r->fields.last_written) PG_TRY (write_fields (r, state, p->rounds > 0 ? time_within (r) : p->stamp));
+    r->fields.last_written = 1;
     pg_result_curve_read (r);
     PG_TRY (pg_result_crack_measure (r, state));
     if (!nothing && !pg_ranks_now ()) pg_result_draw (r, state);
@@ -360,9 +371,9 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     if (!failure) PG_TRY (estimate (r, state));
     if (!failure) PG_TRY (pg_result_fields_complete (r, state));
 done:
-    r->seconds += pg_seconds () - t0;
+    p->seconds += pg_seconds () - t0;
     /* With what finishing took: fields, pictures, errors against the reference, the estimate. */
-    pg_status written = pg_result_json (r, state, failure, search, r->earlier + total + pg_seconds () - t0);
+    pg_status written = pg_result_json (r, state, failure, search, p->earlier + total + pg_seconds () - t0);
     status = pg_ranks_agree (status == PG_OK ? written : status);
     if (status == PG_OK && !failure) return close_run (r);
     pg_result_fields_finish (r, 0);
@@ -374,27 +385,27 @@ void pg_result_free (pg_result **result)
 {
     pg_result *r = *result;
     if (!r) return;
-    if (r->output) r->writer->close (&r->output);
+    if (r->fields.output) r->fields.writer->close (&r->fields.output);
     pg_table_close (&r->history);
     pg_table_close (&r->events);
     pg_result_paths_close (r);
     pg_result_contact_close (r);
     pg_result_unlock (r->folder, &r->lock);
     pg_scene_files_free (r->nnamed, &r->named);
-    for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
-    pg_cloud_clear (&r->own), pg_free (r->here), pg_free (r->in_block);
+    for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->fields.value[k]);
+    pg_cloud_clear (&r->fields.own), pg_free (r->here), pg_free (r->fields.in_block);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
     pg_result_tips_free (r);
-    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y),
-        pg_free (r->curve_more);
+    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve.x), pg_free (r->curve.y),
+        pg_free (r->curve.more);
     pg_free (r);
     *result = NULL;
 }
 
 /* Answers for reports of the command line. Errors and estimate: NULL where none were measured. */
 const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
-const char *pg_result_fields (const pg_result *r) { return r->writer->file; }
+const char *pg_result_fields (const pg_result *r) { return r->fields.writer->file; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
 /* NULL past the last one. */

@@ -70,113 +70,130 @@ typedef struct {
  * and the dissipated energy per area in J/m2 (NAN if unknown). */
 typedef struct { int found; double area, length, dissipated; } result_crack;
 /* An open result folder. */
-struct pg_result {
-    char     folder[3072];
-    /* Files that the scene names, with their hashes. */
-    pg_named_file *named;  size_t nnamed;
-    /* File descriptor of the lock plus one; 0: not locked. */
-    int      lock;
-    const pg_problem *problem;
-    pg_solver *solver;
-    char     hash[80], scene[3072];
-    /* Who writes the fields (output.format), what it was asked for, and what it has made of that; output
-     * NULL: not begun, or another process that holds the whole body does it. */
+/* Fields and their writer. */
+typedef struct {
+    /* Who writes them (output.format), what it was asked for, and what it has made of that; output NULL: not
+     * begun, or another process that holds the whole body does it. */
     const pg_writer *writer;
     pg_field_request request;
     void     *output;
-    char      whole[3200];                             /* the result folder, that of rank 0 */
     pg_cloud  own;                                     /* ranks: the points of this one */
     pg_field_share share;                              /* ranks: which part of the whole that is */
     int64_t  *in_block;                                /* ranks: points of each block, on all of them */
-    signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
-    pg_table  *history, *events;
-    size_t    nfield, npicture, nwritten, ncolumn;
+    size_t    nfield;
     pg_field_view field[MOST_FIELDS];
     double   *value[MOST_FIELDS];
+    /* Share of the bonds after which fields are due again, number of the next such share; events after which
+     * they are due again. 0: never. */
+    double    broken_share;
+    long      next_broken, every;
+    /* Moments whose fields are written; 1: those of the last step are; time of the last ones, s. */
+    long      moments;
+    int       last_written;
+    double    time;
+} result_fields;
+
+/* Pictures. */
+typedef struct {
+    size_t      npicture;
     result_view picture[MOST_PICTURES];
-    char      written[MOST_PICTURES + 3][4096];
-    char      undrawn[200];                            /* why the last missing picture was not drawn */
-    /* stages: 1: all pictures also with every moment whose fields are written. dynamic: time instead of load
-     * factor. stairs: 1: whole lattice cells stand for the body (cells: staircase). */
-    int       stages, dynamic, stairs;
-    /* Magnification of displacements in pictures; share of the bonds after which fields are
-     * due again, 0: never. */
-    double    magnify, broken_share;
-    /* Events after which fields are due again (0: never); number of the next share of broken
-     * bonds. */
-    long      every, next_broken;
-    /* Scratch space: one row of history.csv (ncolumn), and two fields at the points (n x 6). */
-    double   *row, *u;
-    result_average *average;  size_t naverage;
-    /* Cracks that are followed; tips is the number of rows with their lengths. */
-    result_tip *tip;  size_t ntip, tips, tip_capacity;
+    char        undrawn[200];                          /* why the last missing picture was not drawn */
+    /* stages: 1: all pictures also with every moment whose fields are written. stairs: 1: whole lattice cells
+     * stand for the body (cells: staircase). */
+    int         stages, stairs;
+    double      magnify;                               /* magnification of displacements */
+} result_pictures;
+
+/* Cracks that are followed, their tips and fronts. */
+typedef struct {
+    /* Rows of cracks and tips; `tips` is the number of rows with their lengths. */
+    result_tip *tip;  size_t ntip, tips, capacity;
     double    rayleigh;                                /* of the fastest material, m/s; 0: no density */
     /* 1: cracks grow by facets; 1: tips are measured here (output.stress_intensity). */
     int       grows, measuring;
     /* cracks.csv and tips.csv (in space fronts.csv), or NULL; the next piece to write. */
-    pg_table *pieces, *tip_rows;
-    pg_table *contact;                                 /* contact.csv, or NULL */
+    pg_table *pieces, *rows;
     long      npiece;
-    /* What the tips of the state of the last row bear. */
-    pg_tip_values *tip_value;  size_t cap_tip_value;
-    pg_quadrature facet_points;                        /* of all facets, once asked for */
-    /* What the vertices of the fronts in space of the state of the last row bear. */
+    /* What the tips of the state of the last row bear, and the vertices of its fronts in space. */
+    pg_tip_values *value;  size_t cap_value;
     pg_front_values *front_value;  size_t nfront_value, cap_front_value;
-    /* Time (s) or load factor of each of these rows. */
-    double   *tip_time;
-    /* Workspace of their search: marks of the points, and of those of other ranks, zero between rows; points
-     * in the order in which they are reached. Kept: to clear a body's points for each of many rows takes
-     * longer than the search. */
-    double   *tip_seen, *tip_known;
-    int      *tip_queue;
+    pg_quadrature facet_points;                        /* of all facets, once asked for */
+    /* Time (s) or load factor of each row. */
+    double   *time;
+    /* Workspace of the search for tips: marks of the points, and of those of other ranks, zero between rows;
+     * points in the order in which they are reached. Kept: to clear a body's points for each of many rows
+     * takes longer than the search. */
+    double   *seen, *known;
+    int      *queue;
     /* Points of the row with damage enough for any of the tips, ascending. */
-    int      *tip_damaged;  size_t ntip_damaged, cap_tip_damaged;
+    int      *damaged;  size_t ndamaged, cap_damaged;
     /* Broken bonds when the lengths were measured last; -1: they must be measured. */
-    long      tip_broken;
-    /* Moments whose fields are written. */
-    long      moments;
-    /* 1: those of the last step are. */
-    int       last_written;
-    /* The load-displacement curve, one point per row of history.csv; `more` holds step, time,
-     * load factor and gauges of each point. */
+    long      broken;
+} result_tips;
+
+/* The load-displacement curve, one point per row of history.csv. */
+typedef struct {
     size_t    npoint, cap_x, cap_y, cap_more;
-    /* Displacement (m), force (N), both with sign, and the rest. */
-    double   *curve_x, *curve_y, *curve_more;
+    /* Displacement (m) and force (N), both with sign; step, time, load factor and gauges of each point. */
+    double   *x, *y, *more;
     result_peak peak;
-    result_crack crack;
-    /* output.crack_size: its size is a column of history.csv. */
-    int       counting;
-    pg_crack_statistics network;  /* of the cracks at the start */
-    /* The load and the component that the curve follows; curve_load -1: none. */
-    int       curve_load, curve_component;
-    /* An estimate of the error is wanted; it was made. */
-    int       estimating, estimated;
-    pg_estimate estimate;
-    /* Time spent in writing, s. */
-    double    seconds;
-    /* Time of the last step. */
-    double    stamp;
-    /* Time of the last fields. */
-    double    time;
-    /* Length of a step, s or load factor, which places the stages within it. */
-    double    length;
-    /* The files when the last step was made, and again when it was written. */
-    result_marks done;
-    /* The files in the middle of a step, after its last round was looked at. */
-    result_marks now;
+    int       load, component;                         /* that it follows; load -1: none */
+} result_curve;
+
+/* How far the run is, and its checkpoints. */
+typedef struct {
+    /* The files when the last step was made, and again when it was written; in the middle of a step, after
+     * its last round was looked at. */
+    result_marks done, now;
     /* Rounds of breaking in the current step; above 0: its middle has been seen. */
     long      rounds;
     /* A step whose rows and fields are not all written. */
     pg_step   pending;  int is_pending;
-    /* The reference of the scene; NULL: none. */
-    pg_reference *reference;
-    pg_errors errors;  int measured;
-    /* pg_seconds when the folder was opened; seconds that earlier processes of this run took. */
-    double    opened, earlier;
+    /* Time of the last step, s; length of a step, s or load factor, which places the stages within it. */
+    double    stamp, length;
+    /* pg_seconds when the folder was opened; seconds that earlier processes of this run took, and that
+     * writing took. */
+    double    opened, earlier, seconds;
     /* Seconds between checkpoints; when the last one was written; how long that took. */
     double    interval, checkpoint_at, checkpoint_cost;
     /* How many checkpoints the run has written: ranks go on from those of one number. */
     long      generation;
+} result_progress;
+
+struct pg_result {
+    char     folder[3072];
+    char     whole[3200];                              /* the result folder, that of rank 0 */
+    /* Files that the scene names, with their hashes. */
+    pg_named_file *named;  size_t nnamed;
+    /* File descriptor of the lock plus one; 0: not locked. */
+    int      lock;
+    int      dynamic;                                  /* 1: time stands for the load factor */
+    const pg_problem *problem;
+    pg_solver *solver;
+    char     hash[80], scene[3072];
+    result_fields   fields;
+    result_pictures pictures;
+    result_tips     tips;
+    result_curve    curve;
+    result_progress progress;
+    pg_table  *history, *events;
+    pg_table  *contact;                                /* contact.csv, or NULL */
+    size_t    nwritten, ncolumn;
+    char      written[MOST_PICTURES + 3][4096];
+    /* Scratch space: one row of history.csv (ncolumn), and two fields at the points (n x 6). */
+    double   *row, *u;
+    signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
+    result_average *average;  size_t naverage;
+    result_crack crack;
+    /* output.crack_size: its size is a column of history.csv. */
+    int       counting;
+    pg_crack_statistics network;  /* of the cracks at the start */
+    /* An estimate of the error is wanted; it was made. */
+    int       estimating, estimated;
+    pg_estimate estimate;
+    /* The reference of the scene; NULL: none. */
+    pg_reference *reference;
+    pg_errors errors;  int measured;
 };
 /* ---- shared.c: ranks that share a run ------------------------------------------------------------------ */
 void      pg_result_keep_own     (const pg_result *r, size_t components, double *value);

@@ -95,7 +95,7 @@ static pg_status keep_identity (resumed *m, const pg_keeper *k)
     /* Whatever changes one of these numbers makes the checkpoint useless for this problem. */
     long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
                     (long) m->state->ndof,   (long) p->nload,
-                    fingerprint (&p->cloud), (long) m->r->ntip };
+                    fingerprint (&p->cloud), (long) m->r->tips.ntip };
     enum { SIZES = sizeof size / sizeof *size };
     long found[SIZES];
     memcpy (found, size, sizeof size);
@@ -197,16 +197,16 @@ pg_status resumed_files (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_result *r = m->r;
-    long flag[3] = { m->rounds, m->is_pending, r->generation };
-    double seconds[2] = { m->seconds, r->seconds };
+    long flag[3] = { m->rounds, m->is_pending, r->progress.generation };
+    double seconds[2] = { m->seconds, r->progress.seconds };
     PG_TRY (k->counts (k->context, "result.counts", 3, flag));
     PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
     if (flag[0] < 0 || flag[0] > 1L << 50)
         PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
     m->rounds = flag[0], m->is_pending = flag[1], m->seconds = seconds[0];
-    if (k->reading) r->seconds = seconds[1], r->generation = flag[2];
+    if (k->reading) r->progress.seconds = seconds[1], r->progress.generation = flag[2];
     PG_TRY (keep_marks (m, &m->now, "now", k));
-    PG_TRY (keep_marks (m, &r->done, "done", k));
+    PG_TRY (keep_marks (m, &r->progress.done, "done", k));
     PG_TRY (pg_result_curve_keep (r, (size_t) m->now.points, k));
     PG_TRY (pg_result_tips_keep (r, (size_t) m->now.history, k));
 done:
@@ -235,15 +235,16 @@ done:
  * those of the last step. */
 static resumed memory_of (pg_result *r, pg_state *state, const char *path)
 {
+    result_progress *p = &r->progress;
     return (resumed){ .r = r,
                      .state = state,
                      .path = path,
-                     .now = r->rounds > 0 ? r->now : r->done,
-                     .rounds = r->rounds,
-                     .is_pending = r->is_pending,
+        .now = p->rounds > 0 ? p->now : p->done,
+        .rounds = p->rounds,
+        .is_pending = p->is_pending,
                      .threads = r->problem->threads,
-                     .seconds = r->earlier + pg_seconds () - r->opened,
-                     .pending = r->pending };
+        .seconds = p->earlier + pg_seconds () - p->opened,
+        .pending = p->pending };
 }
 
 /* Passes the bytes that a checkpoint would get to a keeper (no reading one), for comparisons of states. */
@@ -259,7 +260,7 @@ pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper
 pg_status pg_result_sync_rows (const pg_result *r)
 {
     pg_status status = PG_OK;
-    const pg_table *const all[] = { r->history, r->events, r->pieces, r->tip_rows, r->contact };
+    const pg_table *const all[] = { r->history, r->events, r->tips.pieces, r->tips.rows, r->contact };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) if (all[k]) PG_TRY (pg_table_sync (all[k]));
 done:
     return status;
@@ -268,6 +269,7 @@ done:
 /* The files are synced first: marks on the disk must not be ahead of the rows that they count. */
 pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
 {
+    result_progress *p = &r->progress;
     pg_status status = PG_OK;
     char path[4096];
     double t0 = pg_seconds ();
@@ -276,7 +278,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     /* Rows first, then the marks that count them. */
     PG_TRY (pg_result_sync_rows (r));
     PG_TRY (pg_result_fields_sync (r));
-    r->generation++;
+    p->generation++;
     PG_TRY (pg_checkpoint_prepare (path, resumed_all, &m));
 done:
     /* The last checkpoint stays until all ranks have written a new one. */
@@ -284,9 +286,9 @@ done:
     if (status == PG_OK) status = pg_ranks_agree (pg_checkpoint_commit (path));
     else pg_checkpoint_drop (path);
     pg_free (m.broken), pg_free (m.reaction);
-    r->checkpoint_at = pg_seconds ();
-    r->checkpoint_cost = r->checkpoint_at - t0;
-    r->seconds += r->checkpoint_cost;
+    p->checkpoint_at = pg_seconds ();
+    p->checkpoint_cost = p->checkpoint_at - t0;
+    p->seconds += p->checkpoint_cost;
     return status;
 }
 
@@ -301,15 +303,17 @@ int pg_result_kept (const pg_result *r)
  * of 0 means none on the way. */
 int pg_result_due (const pg_result *r)
 {
-    double passed = pg_seconds () - r->checkpoint_at;
-    return r->interval > 0 && passed >= r->interval && passed >= 10 * r->checkpoint_cost;
+    const result_progress *p = &r->progress;
+    double passed = pg_seconds () - p->checkpoint_at;
+    return p->interval > 0 && passed >= p->interval && passed >= 10 * p->checkpoint_cost;
 }
 
 /* ---- going on ------------------------------------------------------------------------------------------ */
 void resumed_marks (pg_result *r, const result_marks *at)
 {
-    r->moments = at->moments, r->next_broken = at->next_broken, r->last_written = (int) at->last_written,
-    r->stamp = at->stamp, r->time = at->time;
+    result_fields *f = &r->fields;
+    f->moments = at->moments, f->next_broken = at->next_broken, f->last_written = (int) at->last_written,
+        r->progress.stamp = at->stamp, f->time = at->time;
 }
 
 /* Opens tables and fields, and cuts them to the marks. */
@@ -329,11 +333,11 @@ static pg_status catch_up (resumed *m)
 {
     pg_status status = PG_OK;
     pg_step so_far = { .number = m->state->step + 1, .iterations = m->rounds };
-    int written = m->r->last_written;
+    int written = m->r->fields.last_written;
     if (m->is_pending) PG_TRY (pg_result_step (m->r, m->state, &m->pending));
     if (m->rounds > 0) {
         PG_TRY (pg_result_stage (m->r, m->state, &so_far));
-        m->r->last_written |= written;
+        m->r->fields.last_written |= written;
     }
 done:
     return status;
@@ -401,7 +405,7 @@ pg_status resumed_go_on (pg_result *r, resumed *m)
     pg_status status = resumed_open (r, &m->now);
     if (status == PG_OK) status = pg_result_remove (r, "report.json");
     PG_TRY (pg_ranks_agree (status));
-    r->earlier = m->seconds;
+    r->progress.earlier = m->seconds;
     PG_TRY (catch_up (m));
 done:
     return status;

@@ -86,18 +86,22 @@ pg_status pg_result_views_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
-    r->stages = pg_scene_bool (scene, "output.stages");
-    r->stairs = strcmp (pg_scene_text (scene, "cells"), "staircase") == 0;
+    r->pictures.stages = pg_scene_bool (scene, "output.stages");
+    r->pictures.stairs = strcmp (pg_scene_text (scene, "cells"), "staircase") == 0;
     r->dynamic = !pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_QUASI_STATIC);
     for (size_t k = 0;
-         (name = pg_scene_name (scene, k, "output.pictures")) && r->npicture < MOST_PICTURES - 1; k++) {
-        result_view *v = &r->picture[r->npicture++];
-        *v = (result_view) { .style = { .magnify = r->magnify, .high = strcmp (name, "damage") == 0 } };
+         (name = pg_scene_name (scene, k, "output.pictures"))
+             && r->pictures.npicture < MOST_PICTURES - 1; k++) {
+        result_view *v = &r->pictures.picture[r->pictures.npicture++];
+        *v = (result_view) { .style = { .magnify = r->pictures.magnify,
+            .high = strcmp (name, "damage") == 0 } };
         snprintf (v->name, sizeof v->name, "%s", name);
         snprintf (v->field, sizeof v->field, "%s", name);
     }
-    for (size_t k = 0; k < pg_scene_count (scene, "output.views") && r->npicture < MOST_PICTURES - 1; k++)
-        PG_TRY (pg_result_view_read (&r->picture[r->npicture++], scene, k, r->problem->dim));
+    for (size_t k = 0; k < pg_scene_count (scene, "output.views")
+         && r->pictures.npicture < MOST_PICTURES - 1; k++)
+        PG_TRY (pg_result_view_read (&r->pictures.picture[r->pictures.npicture++], scene, k,
+                                     r->problem->dim));
 done:
     return status;
 }
