@@ -9,7 +9,7 @@ SIZE    ?= full
 
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
-# One-way order of the folders: a file may include headers of its own folder and of folders to its left only.
+# One-way order of the folders, nested ones by their path (mechanics/bonds): a file sees its own folder and those to its left (doc/architecture.md).
 ORDER   := base ranks scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture contact symbol solve output picture compare results session study cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
@@ -20,6 +20,10 @@ OPTIONAL := petsc-dev mpi-default-dev mpi-default-bin octave octave-netcdf octav
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
 THREADED := base sums force
+# most tests compute little themselves: those of other folders than these compile in half the time
+COSTLY   := linalg sums force contact picture
+# what make compilers builds and runs
+PORTABLE := base kernel material criterion linalg approx integration sums force solve
 T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
 # What every run loads when it starts; --as-needed: only those that are called directly.
 LIBS    := -Wl,--as-needed -lfftw3 -lyaml -ludunits2 -lm -lpthread -ldl
@@ -31,8 +35,7 @@ STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
 OPT_release := -O2 -ftree-vectorize
-# most tests compute little themselves: they compile in half the time so
-OPT_of_tests = $(if $(filter release,$(MODE)),$(if $(filter %/linalg/ %/sums/ %/force/ %/contact/ %/picture/,$(dir $@)),-O1,-O0) $(EXTRA_CFLAGS))
+OPT_of_tests = $(if $(filter release,$(MODE)),$(if $(filter $(COSTLY:%=$(BUILD)/test/%/%),$@),-O1,-O0) $(EXTRA_CFLAGS))
 OPT_debug   := -Og -g -DPG_DEBUG
 OPT_fuzz    := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT_mutate  := -O2 -w
@@ -49,9 +52,11 @@ SECONDS ?= 60
 FUZZ    ?= scene points expression mesh table result checkpoint
 FUZZ_BUILD ?= build/fuzz
 
-SOURCES := $(filter-out src/cli/% src/convert/% src/mpi/%,$(wildcard src/*/*.c))
-CLI     := $(wildcard src/cli/*.c)
-TESTS   := $(wildcard test/*/test_*.c)
+ALL     := $(sort $(shell find src -name '*.c'))
+CLI     := $(filter src/cli/%,$(ALL))
+MPISRC  := $(filter src/mpi/%,$(ALL))
+SOURCES := $(filter-out $(CLI) $(MPISRC) src/convert/%,$(ALL))
+TESTS   := $(sort $(shell find test -name 'test_*.c'))
 TOOLS   := $(wildcard bench/*.c)
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
 CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
@@ -73,7 +78,6 @@ CONVERT := $(if $(GMSH),$(BUILD)/perigal-mesh)
 PETSC   := $(shell pkg-config --exists PETSc mpi 2>/dev/null && echo PETSc mpi)
 MPI     := $(if $(PETSC),$(BUILD)/perigal-mpi)
 PETSCLIB = $(patsubst -l%,%,$(filter -lpetsc%,$(shell pkg-config --libs-only-l PETSc)))
-MPISRC  := $(wildcard src/mpi/*.c)
 MPIOBJ  := $(MPISRC:src/%.c=$(BUILD)/src/%.o)
 Q       := $(if $(V),,@)
 # compilations and tests at a time: as many as make was given with -j, else a core each
@@ -130,7 +134,7 @@ $(BUILD)/test/%.o: test/%.c Makefile
 $(ALONE): %: %.o $(BEHIND)
 	$(Q)$(CC) $< $(LDFLAGS) $(LINKED) $(LIBS) $(TESTLIBS) -o $@
 
-# of a folder of test
+# of a folder of test (1), its tests but those that stand alone (2)
 define folder_tests
 $(BUILD)/test/$(1)/tests: $(patsubst %,%.o,$(2)) test/main.c $(BEHIND)
 	$$(if $$(V),,@echo "  LD   $$@")
@@ -141,7 +145,7 @@ $(BUILD)/test/$(1)/tests: $(patsubst %,%.o,$(2)) test/main.c $(BEHIND)
 $(2): $(BUILD)/test/$(1)/tests
 	$$(Q)ln -sf tests $$@
 endef
-$(foreach f,$(sort $(patsubst $(BUILD)/test/%/,%,$(dir $(TESTBIN)))),$(eval $(call folder_tests,$(f),$(filter-out $(ALONE),$(filter $(BUILD)/test/$(f)/%,$(TESTBIN))))))
+$(foreach f,$(sort $(patsubst test/%/,%,$(dir $(TESTS)))),$(eval $(call folder_tests,$(f),$(filter-out $(ALONE),$(patsubst %.c,$(BUILD)/%,$(wildcard test/$(f)/test_*.c))))))
 
 $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)
@@ -188,17 +192,10 @@ demo: packages       ## install, build, run the Brazilian disk, leave pictures
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
 	$(Q)./perigal run data/disk_crack/scene.yaml -o out/demo --force --threads $(THREADS)
 
-test: test-packages  ## everything; last line: N passed, N failed
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
-	$(Q).ci/test $(BUILD) "$(T)" short $(JOBS)
-
-test-long: test-packages  ## in full size those that have a larger one; test-full: those too that take longest
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs bench-programs
-	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
-
-test-full: test-packages
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
-	$(Q).ci/test $(BUILD) "$(T)" full $(JOBS)
+# in full size: test-long: those that have a larger one, but those that test/order keeps; test-full: these too
+test test-long test-full: test-packages  ## everything; last line: N passed, N failed
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs $(if $(filter test-long,$@),bench-programs)
+	$(Q).ci/test $(BUILD) "$(T)" $(or $(filter-out test,$(@:test-%=%)),short) $(JOBS)
 
 test-programs: $(PROGRAM) $(CONVERT) $(MPI) $(if $(T),$(filter $(T:%=$(BUILD)/test/%/%),$(TESTBIN)),$(TESTBIN))
 
@@ -230,7 +227,7 @@ fresh:               ## make demo and make test on a bare Debian in a folder (ro
 	$(Q).ci/fresh
 
 compilers: packages  ## gcc -O0, gcc -O3, clang, warnings being errors; the short tests with each
-	$(Q).ci/compilers "$(or $(T),base kernel material criterion linalg approx integration sums force solve)" $(JOBS)
+	$(Q).ci/compilers "$(or $(T),$(PORTABLE))" $(JOBS)
 
 lint:                ## the house rules of doc/architecture.md; make lint WHY=--why names every offence against those not met yet
 	$(Q).ci/lint $(WHY) $(ORDER)
@@ -256,28 +253,24 @@ bench-programs: $(BENCHBIN) $(MPI) $(RANKSBIN)
 ACCURACY := cells/test_cut force/test_estimate force/test_rigid_motion $(addprefix scene_runs/test_,disk incompressible mesh notch uncracked_disk)
 
 install: all
-	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/perigal
+	install -d $(addprefix $(DESTDIR)$(prefix)/,bin lib/pkgconfig include/perigal share/doc/perigal/doc share/man/man1 share/bash-completion/completions)
+	install -d $(addprefix $(DESTDIR)$(prefix)/share/perigal/python/,perigal examples)
 	install $(PROGRAM) $(CONVERT) $(DESTDIR)$(prefix)/bin
 	install -m 644 $(LIB) $(SOLIB) $(DESTDIR)$(prefix)/lib
 	ln -sf libperigal.so.0 $(DESTDIR)$(prefix)/lib/libperigal.so
 	install -m 644 perigal.pc $(DESTDIR)$(prefix)/lib/pkgconfig
 	install -m 644 include/perigal.h $(DESTDIR)$(prefix)/include
 	install -m 644 include/perigal/*.h $(DESTDIR)$(prefix)/include/perigal
-	install -d $(DESTDIR)$(prefix)/share/doc/perigal/doc $(DESTDIR)$(prefix)/share/man/man1 $(DESTDIR)$(prefix)/share/perigal
 	install -m 644 README.md COPYING $(DESTDIR)$(prefix)/share/doc/perigal
 	install -m 644 doc/*.md doc/*.png $(DESTDIR)$(prefix)/share/doc/perigal/doc
 	.ci/man $(PROGRAM) > $(DESTDIR)$(prefix)/share/man/man1/perigal.1
-	install -d $(DESTDIR)$(prefix)/share/bash-completion/completions
 	.ci/completion $(PROGRAM) > $(DESTDIR)$(prefix)/share/bash-completion/completions/perigal
 	$(PROGRAM) help --schema > $(DESTDIR)$(prefix)/share/perigal/scene.schema.json
-	rm -rf $(DESTDIR)$(prefix)/share/perigal/scenes
+	rm -rf $(addprefix $(DESTDIR)$(prefix)/share/perigal/,scenes matlab)
 	cp -r data $(DESTDIR)$(prefix)/share/perigal/scenes
-	rm -rf $(DESTDIR)$(prefix)/share/perigal/matlab
 	cp -rL matlab-compat $(DESTDIR)$(prefix)/share/perigal/matlab
-	install -d $(DESTDIR)$(prefix)/share/perigal/python/perigal
 	install -m 644 python/pyproject.toml python/README.md $(DESTDIR)$(prefix)/share/perigal/python
 	install -m 644 python/perigal/*.py $(DESTDIR)$(prefix)/share/perigal/python/perigal
-	install -d $(DESTDIR)$(prefix)/share/perigal/python/examples
 	install -m 644 python/examples/* $(DESTDIR)$(prefix)/share/perigal/python/examples
 
 clean:

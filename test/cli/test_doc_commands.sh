@@ -72,7 +72,7 @@ EOF
 good() {   # the command as words
     local words k
     case $1 in
-        make) shift; for k in "$@"; do case $k in *=*|-*) ;; *) grep -qE "^$k:" Makefile || return 1 ;; esac; done; return 0 ;;
+        make) shift; for k in "$@"; do case $k in *=*|-*) ;; *) grep -qE "^([a-z-]+ )*$k( [a-z-]+)*:" Makefile || return 1 ;; esac; done; return 0 ;;
         bench/run|bench/accuracy) case $3 in list|--*) ;; *) "$1" "$2" list | grep -q "^$3 " ;; esac; return ;;
         build/release/test/*) [ -e "test/${1#build/release/test/}.c" ]; return ;;
         build/release/bench/*) [ -e "bench/${1#build/release/bench/}.c" ]; return ;;
