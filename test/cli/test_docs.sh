@@ -10,16 +10,16 @@ report() {   # name, faults (one a line)
 report "every link leads to a file" "$(for page in "${pages[@]}"; do
     grep -oE '\]\([^)# ]+' "$page" | sed 's/^](//' | grep -v '^http' | while read -r to; do [ -e "$(dirname "$page")/$to" ] || echo "$page: $to"; done; done)"
 report "doc/input.md is what the program prints (make doc)" "$("$perigal" help --manual | diff doc/input.md - | head -20)"
-report "files named by doc/method.md exist" "$(grep -oE '`(src/)?[a-z]+/[a-z0-9_]+\.[ch]`' doc/method.md | tr -d '\`' | sort -u |
+report "files named by doc/method.md exist" "$(grep -oE '`([a-z_]+/)+[a-z0-9_]+\.[ch]`' doc/method.md | tr -d '\`' | sort -u |
     while read -r f; do [ -e "src/$f" ] || [ -e "$f" ] || echo "$f"; done)"
 report "files named by doc/notation.md, accuracy.md and architecture.md exist" "$(cat doc/notation.md doc/accuracy*.md doc/architecture.md |
-    grep -oE '`(src/)?[a-z]+/[a-z0-9_]+\.[ch]`' | tr -d '\`' | sort -u |
+    grep -oE '`([a-z_]+/)+[a-z0-9_]+\.[ch]`' | tr -d '\`' | sort -u |
     while read -r f; do [ -e "src/$f" ] || [ -e "$f" ] || echo "$f"; done)"
-report "functions named by doc/method.md exist" "$(grep -oE '`[a-z_]+/[a-z0-9_]+\.c` (`[a-zA-Z_]+`(, )?)+' doc/method.md | while read -r line; do
+report "functions named by doc/method.md exist" "$(grep -oE '`([a-z_]+/)+[a-z0-9_]+\.c` (`[a-zA-Z_]+`(, )?)+' doc/method.md | while read -r line; do
     file=src/$(cut -d'`' -f2 <<< "$line"); for f in $(cut -d' ' -f2- <<< "$line" | tr -d '`,'); do grep -qE "(^| |\*)$f \(" "$file" || echo "$file: $f"; done; done)"
 report "headings cited as 'theory X' exist" "$(grep -rhoE 'theory [A-H][0-9][a-z]?' src include | sort -u |
     while read -r _ key; do grep -q "^## $key " doc/method.md || echo "$key"; done)"
-report "folders of doc/architecture.md are those of src, in the order of make lint" "$(diff <(grep -oE '^\| `[a-z_]+` \|' doc/architecture.md | tr -d '|` ') \
+report "folders of doc/architecture.md are those of src, in the order of make lint" "$(diff <(grep -oE '^\| `[a-z_/]+` \|' doc/architecture.md | tr -d '|` ') \
     <(make -s --no-print-directory print-ORDER | tr ' ' '\n'))"
 # With PERIGAL_TEST_SIZE=long as they stand. In short size scene.yaml on the widest lattice that suits it, if one does (test_check.sh has some of those of
 # plans/ as they stand); of others and of its variants scene_NAME.yaml all that is known before a body is built, which memory for none ends.
