@@ -250,7 +250,7 @@ accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites the
 
 bench-programs: $(BENCHBIN) $(MPI) $(RANKSBIN)
 # tests that print what doc/accuracy_tables.md shows
-ACCURACY := cells/test_cut force/test_estimate force/test_rigid_motion $(addprefix scene_runs/test_,disk incompressible mesh notch uncracked_disk)
+ACCURACY := cells/test_cut force/test_estimate force/test_rigid_motion scene_runs/test_disk scene_runs/test_incompressible scene_runs/test_mesh scene_runs/test_notch scene_runs/test_uncracked_disk
 
 install: all
 	install -d $(addprefix $(DESTDIR)$(prefix)/,bin lib/pkgconfig include/perigal share/doc/perigal/doc share/man/man1 share/bash-completion/completions)
