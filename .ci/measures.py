@@ -19,7 +19,7 @@ def links(tree):
     several files define, as main, links none. None instead, and why, where an object is missing or older than its source."""
     files = [s.path[4:-2] for s in tree.library if s.path.endswith('.c')]
     age = {f: os.path.getmtime(f'{OBJECTS}src/{f}.o') if os.path.exists(f'{OBJECTS}src/{f}.o') else 0 for f in files}
-    lost = [f for f in files if age[f] < os.path.getmtime(f'src/{f}.c') and (age[f] or f.split('/')[0] in tree.order)]
+    lost = [f for f in files if age[f] < os.path.getmtime(f'src/{f}.c') and (age[f] or os.path.dirname(f) in tree.order)]
     if lost:
         return None, f'objects of {OBJECTS}src that are missing or older than their source: {len(lost)}, as {lost[0]}.o; make first'
     there = [f for f in files if age[f]]             # programs beside the library are compiled where their libraries are installed
@@ -60,7 +60,7 @@ def measure_links(tree):
     yield ('call cycle', len(largest) if graphs else None,
            why_not or f'files that all call each other by some way; {len(cycle(every))} by functions and tables', largest)
     upward = [(f, g) for f in sorted(every) for g in sorted(every[f])
-              if tree.rank.get(f.split('/')[0], last) < tree.rank.get(g.split('/')[0], last)]
+              if tree.rank.get(os.path.dirname(f), last) < tree.rank.get(os.path.dirname(g), last)]
     yield ('upward links', len(upward) if graphs else None,
            why_not or f'pairs of files, the second in a later folder; {sum(g in calls[f] for f, g in upward)} by functions',
            [f'{f}.c uses {", ".join(sorted(set(every[f][g])))} of {g}.c' for f, g in upward])
