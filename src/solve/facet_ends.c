@@ -40,6 +40,8 @@ long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
     if (!g) return 0;
     if (b->system.problem->dim == 3) return fronts_unjudged (b, state);
     if (!state->paths) return 0;
+    /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
+    if (g->ntip == 0 && state->paths->ntip > 0) return g->unjudged;
     for (size_t i = 0; i < state->paths->ntip; i++) {
         open += state->paths->tip[i].open != 0;
         if (i < g->ntip && state->paths->tip[i].open && (is_lost (b, state, i) || overlaps (b, i,
