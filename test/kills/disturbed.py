@@ -258,13 +258,13 @@ class Trial:
             except subprocess.TimeoutExpired:
                 self.send(child, number)
         code = self.end(child)
-        for _ in range(1000 * bool(self.case.ranks)):    # ranks may come to their end behind mpirun
-            if not self.ranks_left():
+        for _ in range(1000 * bool(self.case.ranks or self.case.sets)):     # ranks and runs of a sweep may end behind the process that was started
+            if not self.is_running():
                 break
             time.sleep(0.02)
         return code
 
-    def ranks_left(self):
+    def is_running(self):
         """Whether a process of this trial still runs; it may be dead and not yet gone."""
         for path in glob.glob('/proc/[0-9]*/cmdline'):
             try:
