@@ -40,13 +40,13 @@ long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
     if (!g) return 0;
     if (b->system.problem->dim == 3) return fronts_unjudged (b, state);
     if (!state->paths) return 0;
-    /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
-    if (g->ntip == 0 && state->paths->ntip > 0) return g->unjudged;
     for (size_t i = 0; i < state->paths->ntip; i++) {
         open += state->paths->tip[i].open != 0;
         if (i < g->ntip && state->paths->tip[i].open && (is_lost (b, state, i) || overlaps (b, i,
                                                                                             factor))) n++;
     }
+    /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
+    if (open && g->ntip == 0) return g->unjudged;
     /* where cracks have ended and none can begin nobody looks at what is left of the body */
     return n ? n : !open && !trial_has_strength (b->system.problem);
 }
