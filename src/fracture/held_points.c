@@ -2,7 +2,6 @@
  * Nodes that live bonds hold: between two cracks that lie closer together than a horizon a node may keep
  * bonds in one direction alone, and moves across it as whatever it was solved with has it. */
 #include "held_points.h"
-#include <math.h>
 
 /* Forces along bonds: the tensor sum n n' of the directions of live bonds is definite. Its least eigenvalue
  * against the largest one says how flat the bonds lie; they are nearly a line where their stiffness across

@@ -188,16 +188,16 @@ static void add_matrix_bytes (pg_forecast *f)
 }
 
 /* Program and libraries, which are loaded when they are first needed: a run that draws nothing and solves by
- * products alone takes 5 MB besides its arrays. Factors, and the coarsest level of preconditioners,
- * take SuiteSparse and BLAS with 9 MB. */
+ * products alone takes about 9 MB besides its arrays. Factors, and the coarsest level of preconditioners,
+ * take SuiteSparse and BLAS with 6 MB. */
 static double program_bytes (const pg_forecast *f)
 {
     int factors = f->linear || !(f->explicit_ || mass_dominates (f));
-    return 5e6 + (factors ? 9e6 : 0);
+    return 9e6 + (factors ? 6e6 : 0);
 }
 
 /* Bytes from counts, and their sum. Of each pair of phases that do not meet, the larger counts. 1.5e6: of any
- * run, however small; 22e6: pictures, with the libraries that draw them. */
+ * run, however small; 37e6: pictures, with the libraries that draw them. */
 void pg_forecast_sum (pg_forecast *f)
 {
     double d = f->dim, n = f->points, m = d + f->rotations, *b = f->bytes;
@@ -212,7 +212,7 @@ void pg_forecast_sum (pg_forecast *f)
     /* states; break_loop; factored */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + (f->linear != NULL)) * all;
     b[PG_BYTES_VECTORS] = vector_bytes (f);
-    b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 1.5e6 + (f->pictures ? 22e6 : 0);
+    b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 1.5e6 + (f->pictures ? 37e6 : 0);
     add_matrix_bytes (f);
     f->peak = 0;
     for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];

@@ -159,11 +159,13 @@ static pg_status keep_pending (resumed *m, const pg_keeper *k)
     pg_status status = PG_OK;
     pg_step *s = &m->pending;
     size_t nreaction = s->reaction || k->reading ? PG_REACTIONS * m->r->problem->nload : 0;
-    long count[5] = { s->number, s->iterations, s->level, s->event, (long) s->nbroken };
-    double number[6] = { s->stamp, s->time, s->factor, s->residual, s->utilisation, s->dissipated };
+    long count[8] = { s->number, s->iterations, s->level, s->event, (long) s->nbroken,
+                      s->instability, s->stage, s->unjudged };
+    double number[7] = { s->stamp, s->time, s->factor, s->residual, s->utilisation, s->dissipated,
+                         s->motion };
     if (!m->is_pending) goto done;
-    PG_TRY (k->counts (k->context, "pending.counts", 5, count));
-    PG_TRY (k->numbers (k->context, "pending.numbers", 6, number));
+    PG_TRY (k->counts (k->context, "pending.counts", 8, count));
+    PG_TRY (k->numbers (k->context, "pending.numbers", 7, number));
     if (k->reading && (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS]))
         PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
     /* A checkpoint is walked through twice when it is written. */
@@ -182,7 +184,11 @@ static pg_status keep_pending (resumed *m, const pg_keeper *k)
                         .factor = number[2],
                         .residual = number[3],
                         .utilisation = number[4],
-                        .dissipated = number[5] };
+                        .dissipated = number[5],
+                        .instability = count[5],
+                        .stage = count[6],
+                        .unjudged = count[7],
+                        .motion = number[6] };
     else {
         if (s->nbroken) memcpy (m->broken, s->broken, s->nbroken * sizeof *s->broken);
         if (nreaction) memcpy (m->reaction, s->reaction, nreaction * sizeof *s->reaction);

@@ -45,6 +45,8 @@ long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
         if (i < g->ntip && state->paths->tip[i].open && (is_lost (b, state, i) || overlaps (b, i,
                                                                                             factor))) n++;
     }
+    /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
+    if (open && g->ntip == 0) return g->unjudged;
     /* where cracks have ended and none can begin nobody looks at what is left of the body */
     return n ? n : !open && !trial_has_strength (b->system.problem);
 }

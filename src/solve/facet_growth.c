@@ -83,11 +83,11 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     if (!g) return PG_OK;
-    long said = (long) g->said;
-    PG_TRY (k->counts (k->context, "facets.said", 1, &said));
+    long count[2] = { (long) g->said, g->unjudged };
+    PG_TRY (k->counts (k->context, "facets.said", 2, count));
     PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
-    PG_KEEP_BOUND (k, "what was said of facets", said, 0, FACET_SAID_ALL);
-    g->said = (unsigned) said;
+    PG_KEEP_BOUND (k, "what was said of facets", count[0], 0, FACET_SAID_ALL);
+    g->said = (unsigned) count[0], g->unjudged = count[1];
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
     PG_TRY (facet_motion_keep (b, k));
 done:

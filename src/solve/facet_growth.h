@@ -80,6 +80,7 @@ typedef struct facet_growth {
     /* In motion: how every tip runs, the facets that open, the sum of what they hold, N (ndof), and the
      * forces before a cut, N (ndof). */
     int     moving;
+    long    unjudged;  /* in motion: tips that the last measure could not judge */
     facet_run  *run; size_t nrun, cap_run;
     facet_hold *hold; size_t nhold, cap_hold;
     double *held, *force_before;

@@ -259,6 +259,7 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
         if (state->paths->tip[i].open)
             PG_TRY (run_tip (b, state, i, t, d, dt, over * over, angle, any));
     }
+    g->unjudged = facet_unjudged (b, state, 1);
     facet_hold_drop (b, 0);
 done:
     return status;

@@ -15,9 +15,10 @@ if [ "$PERIGAL_TEST_SIZE" = long ]; then
     exit $code
 fi
 kills FROM=1 COUNT=4 TAP=1; code=$?
-# contact; a measurement of tips that was made twice; a preconditioner that the start of a resumed run had left; why a run ended
+# contact; a measurement of tips that was made twice; a preconditioner that the start of a resumed run had left; why a run ended; tips of a motion that
+# nothing judged
 n=5
-for one in "21 contact" "16 facets" "20 facets" "256 facets"; do
+for one in "21 contact" "16 facets" "20 facets" "256 facets" "605 running"; do
     kills FROM="${one% *}" COUNT=1 KIND="${one#* }" > "$out/said" && word=ok || { word="not ok" code=1; sed 's/^/# /' "$out/said"; }
     echo "$word $n - number ${one% *}, ${one#* }"; n=$((n + 1))
 done
