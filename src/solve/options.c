@@ -3,6 +3,7 @@
 #include "contact.h"
 #include "facet_growth.h"
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,6 +11,25 @@ enum { MOST_STEPS = 1000000000 };
 
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 static int given (const pg_scene *scene, const char *key) { return pg_scene_given (scene, "%s", key); }
+
+/* While a scene is at hand a fault is placed at its key; a program that sets options by itself gets an
+ * error. */
+pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
+{
+    char text[1000];
+    va_list args;
+    va_start (args, format);
+    vsnprintf (text, sizeof text, format, args);
+    va_end (args);
+    if (!o->scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
+    pg_scene_fault (o->scene, key, "%s", text);
+    return pg_scene_verdict (o->scene);
+}
+
+pg_status options_blame (pg_status status, const pg_solver_options *o, const char *key)
+{
+    return o->scene ? pg_scene_blame (o->scene, key, status) : status;
+}
 
 /* Without the key 0, also where the key has a default. */
 double options_number (const pg_scene *scene, const char *key)

@@ -5,28 +5,8 @@
 #include "contact.h"
 #include "trial_facet.h"
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-/* While a scene is at hand a fault is placed at its key; a program that sets options by itself gets an
- * error. */
-pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
-{
-    char text[1000];
-    va_list args;
-    va_start (args, format);
-    vsnprintf (text, sizeof text, format, args);
-    va_end (args);
-    if (!o->scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
-    pg_scene_fault (o->scene, key, "%s", text);
-    return pg_scene_verdict (o->scene);
-}
-
-pg_status options_blame (pg_status status, const pg_solver_options *o, const char *key)
-{
-    return o->scene ? pg_scene_blame (o->scene, key, status) : status;
-}
 
 /* The force is that of the problem; pg_solver_create_with is for tests that bring one of their own. */
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
