@@ -422,11 +422,6 @@ enum {
     PG_SOLVER_RANKS = 256,                             /* ranks may share a run (perigal/ranks.h) */
     PG_SOLVER_STATIC = PG_SOLVER_QUASI_STATIC | PG_SOLVER_IMPLICIT     /* equilibria by linear systems */
 };
-/* The flags of solver.kind (NULL: of the first in the list, the default); 0: unknown. Defined with the
- * catalogue in src/solve, declared here for the folders below it. */
-unsigned  pg_solver_flags (const char *kind);
-/* 1: it has all of these flags. */
-int       pg_solver_is (const char *kind, unsigned flags);
 /* 1: ranks are to divide the points of the body (perigal/ranks.h); 0: each holds all, and they share
  * matrices. By solver.kind and solver.division; auto: of forces between points as many unknowns, by a
  * forecast, as one process solves for without a factor, and nothing in the scene needs the whole body.

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * scene.h: what the user wrote. YAML becomes checked names, SI numbers and expressions, each with its place
  * in the file. Knows no method: every folder brings a table of its keys (`pg_keys_<folder>`), and
- * src/scene/list.h has one line per table. These tables drive parsing, checks, `perigal help KEY` and
+ * src/scene/keys/list.h has one line per table. These tables drive parsing, checks, `perigal help KEY` and
  * doc/input.md alike.
  *
  * A scene goes through these steps: libyaml reads the text into a tree (src/scene/yaml.c); overrides `--set
@@ -69,7 +69,7 @@ typedef struct { const char *folder; const pg_key *key; size_t n; } pg_key_table
 /* Keys of the entries of a catalogue. An entry (a material, a criterion, a solver ...) declares its own
  * keys in its own file; several entries may share a table. The scene knows all of them. A key without a
  * default is required only where an entry that owns it is chosen, and the manual names the entries with
- * each key. A folder with such entries has one line in src/scene/list.h and a `const pg_key_catalogue
+ * each key. A folder with such entries has one line in src/scene/keys/list.h and a `const pg_key_catalogue
  * pg_entry_keys_<folder>`. pg_key_tables is a list of tables that ends with NULL. */
 typedef const pg_key_table *const *pg_key_tables;
 
@@ -85,10 +85,9 @@ typedef struct {
     pg_key_tables (*keys_twice) (size_t i);
     /* Prefix of the second place, and its name in the manual: "materials.{}.", "for this material". */
     const char *also, *also_doc;
+    /* What is true of entry i, as bits that the catalogue defines (pg_scene_entry_is); NULL: it has none. */
+    unsigned (*flags) (size_t i);
 } pg_key_catalogue;
-/* The entries that own a key, "adr|relax", and in *selector (unless NULL) the key that chooses among them;
- * NULL: the key belongs to no entry. */
-const char *pg_key_entries (const pg_key *key, const char **selector);
 /* Is `name` one of "a|b|c"? */
 int pg_listed (const char *names, const char *name);
 
@@ -112,11 +111,15 @@ pg_status pg_scene_parse  (pg_scene **out, const char *text, const char *name);
 /* Reads and checks a scene from memory with overrides as in pg_scene_load_with; name: for messages. */
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
                                const char *const *set);
+/* Reads a scene from memory against the keys by which another one was read. */
+pg_status pg_scene_parse_like (pg_scene **out, const pg_scene *like, const char *text, const char *name);
 void      pg_scene_free   (pg_scene **scene);
 
 /* ---- use: paths are printf formats, e.g. pg_scene_number (s, "cracks[%zu].width", i) ------------------- */
 /* Lets the compiler check the format. */
 #define PG_PATH(k, m) __attribute__ ((format (printf, k, m)))
+/* 1: all of these flags (pg_key_catalogue.flags) are true of the entry that the key `selector` chooses. */
+int         pg_scene_entry_is (const pg_scene *s, const char *selector, unsigned flags);
 /* Did the user write it? */
 int         pg_scene_given   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
 /* Line of the file; 0: it is not written there. */
@@ -209,11 +212,10 @@ int       pg_expression_uses    (const pg_expression *e, char variable);
 void      pg_expression_free    (pg_expression **e);
 
 /* ---- inquiry ------------------------------------------------------------------------------------------- */
-/* The key tables of all folders. */
-const pg_key_table *pg_scene_tables (size_t *n);
-/* The limit of src/scene/tables.c that the tables of this build exceed, "MOST_TABLES"; NULL: they fit. Scenes
- * are not read then (PG_E_LIMIT), as keys would be missing. */
-const char *pg_scene_tables_fault (void);
+/* Key k of a scene, in the order of the folders that own them; NULL: there are no more. */
+const pg_key *pg_scene_key (size_t k);
+/* Key k of those by which this scene was read; NULL: there are no more. */
+const pg_key *pg_scene_known_key (const pg_scene *s, size_t k);
 /* Writes what is known of a key, given by its full path or last word; PG_E_USAGE: unknown, names the
  * nearest. */
 pg_status pg_scene_help     (FILE *to, const char *key);

@@ -390,6 +390,10 @@ void pg_solver_warn (pg_solver *solver, const char *format, ...) __attribute__ (
 /* The force behind it, for fields and gauges. */
 const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);
 const char *pg_solver_names (void);
+/* The flags of a kind (NULL: of the first in the list, the default); 0: unknown. */
+unsigned  pg_solver_flags (const char *kind);
+/* 1: it has all of these flags. Where the scene is at hand, pg_scene_entry_is tells as much. */
+int       pg_solver_is (const char *kind, unsigned flags);
 /* b0..b7 of Newmark's method (theory F5) for dt, beta, gamma of the options. */
 void pg_newmark_coefficients (const pg_solver_options *options, double *b);
 PG_API_END

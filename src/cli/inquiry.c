@@ -95,11 +95,9 @@ int pg_cli_list (int argc, char **argv)
 /* All keys of the scene, one per line, in the order of the folders that own them. */
 static void all_keys (void)
 {
-    size_t n;
-    const pg_key_table *table = pg_scene_tables (&n);
+    const pg_key *key;
     printf ("keys of the scene file (perigal help KEY explains one, perigal help --manual prints all):\n");
-    for (size_t t = 0; t < n; t++)
-        for (size_t k = 0; k < table[t].n; k++) printf ("  %s\n", table[t].key[k].path);
+    for (size_t k = 0; (key = pg_scene_key (k)); k++) printf ("  %s\n", key->path);
 }
 
 /* A word is first looked for among the commands, then among the keys; without one all keys are

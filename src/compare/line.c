@@ -11,6 +11,18 @@
 
 enum { MOST_COLUMNS = 64, PLACE = 16 };                /* PLACE + k: coordinate k */
 
+/* A zero byte would hide the rest of the text from the string functions, so it is refused. */
+pg_status pg_compare_load_text (const char *path, char **text)
+{
+    pg_status status = PG_OK;
+    size_t size;
+    PG_TRY (pg_file_text (text, &size, path));
+    if (memchr (*text, 0, size)) PG_FAIL (PG_E_FILE, "%s is not a text file", path);
+done:
+    if (status != PG_OK) pg_free (*text), *text = NULL;
+    return status;
+}
+
 /* Both spellings of a column are accepted: the short names, and those of fields in result.e. */
 static const char *const names[9] = { "u_x", "u_y", "u_z", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx" };
 static const char *const longer[9] = { "displacement_x", "displacement_y", "displacement_z",

@@ -52,7 +52,7 @@ static double evaluations_of (const pg_scene *scene)
 {
     if (pg_scene_has (scene, "solver.time_steps"))
         return (double) pg_scene_integer (scene, "solver.time_steps");
-    if (pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC)) return 200;
+    if (pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC)) return 200;
     return 1000;
 }
 

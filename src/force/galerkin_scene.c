@@ -112,7 +112,7 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
     }
     load->essential = PG_ESSENTIAL_PENALTY;
     /* no shorter time step than with Nitsche's terms */
-    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
+    if (!pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT))
         load->penalty = fmin (o->penalty, o->nitsche);
 }
 

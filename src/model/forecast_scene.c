@@ -66,12 +66,12 @@ static double fastest_wave (const pg_scene *scene, int dim)
  * much K weighs beside the mass. */
 static void read_solver (pg_forecast *f, const pg_scene *scene)
 {
-    const char *linear = pg_scene_text (scene, "solver.linear"), *kind = pg_scene_text (scene, "solver.kind");
+    const char *linear = pg_scene_text (scene, "solver.linear");
     double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"),
            dt = pg_scene_number (scene, "solver.dt");
     f->automatic = !linear || is (linear, "auto");
-    f->dynamic = !pg_solver_is (kind, PG_SOLVER_STATIC);
-    f->explicit_ = !pg_solver_is (kind, PG_SOLVER_IMPLICIT);
+    f->dynamic = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
+    f->explicit_ = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT);
     f->linear = f->automatic ? pg_linear_usual (1, 1) : pg_linear_find (linear);
     if (f->linear && !f->linear->factors) f->linear = NULL;
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;

@@ -51,7 +51,7 @@ pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
     char names[160];
     size_t parts = pg_scene_count (scene, "initial.sets");
     if (!pg_scene_given (scene, "initial.velocity") && parts == 0) return PG_OK;
-    if (pg_solver_is (kind, PG_SOLVER_QUASI_STATIC)) {
+    if (pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_QUASI_STATIC)) {
         pg_problem_note (p, "ignored with solver: %s: initial", kind);
         return PG_OK;
     }

@@ -474,7 +474,7 @@ static void name_apart (pg_problem *problem, const pg_scene *scene)
 pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    int is_static = pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_QUASI_STATIC);
+    int is_static = pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_QUASI_STATIC);
     double duration = is_static ? 1 : pg_scene_number (scene, "solver.end");
     if (!is_static && !(duration > 0) && pg_scene_has (scene, "solver.time_steps"))
         duration = (double) pg_scene_integer (scene, "solver.time_steps")

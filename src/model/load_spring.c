@@ -39,7 +39,7 @@ static pg_status read_end (const pg_problem *p, pg_load *load, const pg_scene *s
     int sprung = k < p->dim && load->stiffness[k] > 0;
     snprintf (path, sizeof path, "boundary[%zu].spring_end.%c", i, "xyz"[k]);
     int moved = pg_scene_given (scene, "%s", path);
-    if (moved && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_EXPLICIT))
+    if (moved && pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_EXPLICIT))
         pg_scene_fault (scene, path,
                         "explicit steps do not know the work of springs whose ends move: use newmark, or "
                         "leave it out");

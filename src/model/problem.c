@@ -229,8 +229,8 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
         how = pg_scene_given (scene, "solver.break"),
         facets = how ? strcmp (pg_scene_text (scene, "solver.break"), "facet") == 0 : p->dim == 2,
         tips = p->dim > 1 && facets && p->method->shape_functions && (p->method->shows & PG_NEEDS_FACETS)
-               && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_FACETS)
-               && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
+               && pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_FACETS)
+               && pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
     if (tips && limit_given (p, scene, "fracture_energy")) return pg_criterion_by_need (PG_NEEDS_FACETS);
     return energy || pg_scene_given (scene, "failure.critical_stretch")
                ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
@@ -389,7 +389,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     p->thickness_assumed = p->dim < 3
                            && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
     p->plain = pg_scene_bool (scene, "solver.plain");
-    p->equilibria = pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
+    p->equilibria = pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
     p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
     /* No number until the patch test has run: NAN shows as a gap and compares false. */
     p->patch = (pg_patch) { .error = NAN, .compliance = NAN };

@@ -31,7 +31,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 static void check_cells (against *a)
 {
     char path[64];
-    if (!pg_solver_is (pg_scene_text (a->scene, "solver.kind"), PG_SOLVER_IMPLICIT))
+    if (!pg_scene_entry_is (a->scene, "solver.kind", PG_SOLVER_IMPLICIT))
         refuse (a, "solver.kind", "galerkin in explicit steps is for one process only so far: use newmark");
     if (pg_scene_bool (a->scene, "solver.plain"))
         refuse (a, "solver.plain", "goes with one process only for force: galerkin");
@@ -72,9 +72,9 @@ static void check_all (against *a, const pg_method *method)
     snprintf (text, sizeof text, "%s is not divided among ranks so far", method->name);
     if (method->ghost_cells) check_cells (a);
     if (!(method->ghosts > 0)) refuse (a, "method.force", text);
-    if (pg_solver_is (kind, PG_SOLVER_IMPLICIT)) check_implicit (a);
+    if (pg_scene_entry_is (a->scene, "solver.kind", PG_SOLVER_IMPLICIT)) check_implicit (a);
     snprintf (text, sizeof text, "%s is for one process only so far", kind);
-    if (!pg_solver_is (kind, PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
+    if (!pg_scene_entry_is (a->scene, "solver.kind", PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
 }
 
 /* By the forecast of one process: a body so large that it is solved without a factor. */
@@ -111,7 +111,7 @@ int pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods)
 {
     const pg_method *method = pg_method_of (methods, scene);
     against a = { .scene = scene, .quiet = 1 };
-    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) return 1;
+    if (!pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT)) return 1;
     if (!is (scene, "solver.division", "auto")) return is (scene, "solver.division", "subdomains");
     if (pg_rank_count () < 2 || !method) return 0;
     check_all (&a, method);

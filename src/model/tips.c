@@ -326,7 +326,7 @@ static void tell (pg_problem *p, const pg_scene *scene, extent *e)
     double spacings = known_to (p), worst = 0;
     size_t at = 0;
     char remedy[80] = "";
-    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC)) return;
+    if (!pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC)) return;
     join (p, e);
     for (size_t k = 0; k < p->cracks.n; k++) {
         if (e[k].group != k || !(e[k].front > 0) || !(e[k].size > 0)) continue;

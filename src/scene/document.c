@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A scene from a file or from memory: read, apply overrides, check, report all faults.
+ * A scene from a text: read, apply overrides, check, report all faults.
  *
  * The order matters: without a tree nothing else can be checked; overrides come before the checks, so that
  * a value from the command line is checked like one from the file; all other faults are collected and
  * reported together. */
 #include "document.h"
 #include "sha256.h"
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
-
-/* Bytes of a scene file, at most. */
-enum { LARGEST = 1 << 28 };
 
 /* SHA-256 of the text and of the overrides, each separated by a zero byte. */
 static void hash (pg_scene *s, size_t length, size_t nset, const char *const *set)
@@ -76,17 +71,16 @@ static int geometry_is_sound (const pg_scene *s)
     return s->dimension > 0 && !s->faults->more;
 }
 
-/* some: a scene whose geometry has no fault is returned together with the faults it has. */
-static pg_status read_some (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
-                            const char *const *set, const pg_key_table *table, size_t ntable, int some)
+/* Text, overrides, checks; then the verdict on all faults. */
+pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
+                         const char *const *set, const pg_vocabulary *words, int some)
 {
     pg_status status = PG_OK;
     pg_scene *s;
     *out = NULL;
     PG_ALLOC (s, 1);
     PG_TRY (keep_texts (s, text, length, name, nset, set));
-    PG_TRY (pg_schema_create (&s->schema, table, ntable));
-    /* Text, overrides, checks; then the verdict on all faults. */
+    PG_TRY (pg_schema_create (&s->schema, words));
     PG_TRY (read_tree (s, text, length));
     /* Without a tree there is nothing more to check. */
     PG_TRY (pg_faults_verdict (s->faults));
@@ -101,92 +95,10 @@ done:
     return status;
 }
 
-pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
-                         const char *const *set, const pg_key_table *table, size_t ntable)
+pg_status pg_scene_parse_like (pg_scene **out, const pg_scene *like, const char *text, const char *name)
 {
-    return read_some (out, text, length, name, nset, set, table, ntable, 0);
+    return pg_scene_read (out, text, strlen (text), name, 0, NULL, like->schema.from, 0);
 }
-
-/* The key tables of all folders, if all of them are there. */
-static pg_status all_tables (const pg_key_table **table, size_t *n)
-{
-    const char *limit = pg_scene_tables_fault ();
-    *table = pg_scene_tables (n);
-    return !limit ? PG_OK
-                  : pg_error (PG_E_LIMIT, PG_HERE,
-                              "this build has more keys than their tables hold: raise %s in "
-                              "src/scene/tables.c", limit);
-}
-
-pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
-                               const char *const *set)
-{
-    pg_status status = PG_OK;
-    size_t n;
-    const pg_key_table *table;
-    *out = NULL;
-    PG_TRY (all_tables (&table, &n));
-    PG_TRY (pg_scene_read (out, text, strlen (text), name, nset, set, table, n));
-done:
-    return status;
-}
-
-pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name)
-{
-    return pg_scene_parse_with (out, text, name, 0, NULL);
-}
-
-/* Reads a regular file. A pipe would block, and would be empty when it is read again. */
-static pg_status read_file (char **text, size_t *length, const char *path)
-{
-    pg_status status = PG_OK;
-    size_t cap = 0, n = 0, more;
-    struct stat s;
-    FILE *f = NULL;
-    /* Folders have their own message. */
-    if (stat (path, &s) == 0 && !S_ISREG (s.st_mode))
-        PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path,
-                 S_ISDIR (s.st_mode) ? strerror (EISDIR) : "a scene is a regular file, no pipe or device");
-    f = fopen (path, "rb");
-    if (!f) PG_FAIL (PG_E_FILE, "%s: cannot be opened: %s", path, strerror (errno));
-    do {
-        PG_GROW (*text, cap, n + 4096);
-        more = fread (*text + n, 1, cap - n, f);
-        n += more;
-        if (n > LARGEST) PG_FAIL (PG_E_LIMIT, "%s: a scene has at most %d bytes", path, LARGEST);
-    } while (more);
-    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path, strerror (errno));
-    *length = n;
-done:
-    if (f) fclose (f);
-    return status;
-}
-
-/* A file with the key tables of all folders. */
-static pg_status load (pg_scene **out, const char *path, size_t nset, const char *const *set, int some)
-{
-    pg_status status = PG_OK;
-    char *text = NULL;
-    size_t length = 0, n;
-    const pg_key_table *table;
-    *out = NULL;
-    PG_TRY (all_tables (&table, &n));
-    PG_TRY (read_file (&text, &length, path));
-    PG_TRY (read_some (out, text, length, path, nset, set, table, n, some));
-done:
-    pg_free (text);
-    return status;
-}
-
-pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set)
-{
-    return load (out, path, nset, set, 0);
-}
-pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set)
-{
-    return load (out, path, nset, set, 1);
-}
-pg_status pg_scene_load (pg_scene **out, const char *path) { return pg_scene_load_with (out, path, 0, NULL); }
 
 /* NULL, or a pointer to NULL, is allowed. */
 void pg_scene_free (pg_scene **scene)
@@ -212,6 +124,11 @@ const char *pg_scene_source (const pg_scene *s) { return s->source; }
 const char *pg_scene_setting (const pg_scene *s, size_t k)
 {
     return k < s->nset ? s->set[k] + sizeof "--set" : NULL;
+}
+
+const pg_key *pg_scene_known_key (const pg_scene *s, size_t k)
+{
+    return k < s->schema.n ? s->schema.row[k] : NULL;
 }
 
 const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }

@@ -27,9 +27,10 @@ struct pg_scene {
     int        partial;
 };
 
-/* Reads a scene from memory with overrides `set`, against these tables. */
+/* Reads a scene from memory with overrides `set`, against these tables, which are kept. some: a scene whose
+ * geometry has no fault is returned together with the faults it has (pg_scene_load_some). */
 pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
-                         const char *const *set, const pg_key_table *table, size_t ntable);
+                         const char *const *set, const pg_vocabulary *words, int some);
 /* Puts "key=value" into the tree; what is wrong with it is a fault. */
 pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin);
 /* override_seed.c: 1 for "random_field.seed=N", which gives all random fields of the scene other seeds. */

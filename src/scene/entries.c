@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys that belong to entries of a catalogue (pg_key_catalogue): does the entry chosen in a scene know
- * them? */
+ * Entries of catalogues (pg_key_catalogue) that a scene chooses: the keys that belong to them, and what is
+ * true of them. */
 #include "document.h"
 #include <string.h>
 
@@ -39,7 +39,7 @@ const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char p
 {
     char own[PG_PATTERN], chosen[PG_PATTERN];
     for (size_t row = 0; row < s->schema.n; row++) {
-        const char *selector, *entries = pg_key_entries (s->schema.row[row], &selector);
+        const char *selector, *entries = pg_schema_entries (&s->schema, s->schema.row[row], &selector);
         if (!entries || !concrete (own, s->schema.row[row]->path, map) || !concrete (chosen, selector, map))
             continue;
         const char *name = pg_scene_text (s, "%s", chosen);
@@ -67,9 +67,21 @@ static const char *chosen_entry (const pg_scene *s, const pg_node *node, const c
 /* Keys that belong to no entry are always wanted. */
 int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, const char *pattern)
 {
-    const char *selector, *entries = pg_key_entries (key, &selector);
+    const char *selector, *entries = pg_schema_entries (&s->schema, key, &selector);
     if (!entries) return 1;
     char first[PG_LEVEL_NAMES];
     const char *chosen = chosen_entry (s, node, pattern, selector, first);
     return chosen && pg_listed (entries, chosen);
+}
+
+int pg_scene_entry_is (const pg_scene *s, const char *selector, unsigned flags)
+{
+    const char *chosen = pg_scene_text (s, "%s", selector), *name;
+    for (size_t c = 0; c < s->schema.from->ncatalogue; c++) {
+        const pg_key_catalogue *from = s->schema.from->catalogue[c];
+        if (!from->flags || strcmp (from->selector, selector) != 0) continue;
+        for (size_t i = 0; (name = from->name (i)); i++)
+            if (!chosen || strcmp (name, chosen) == 0) return (from->flags (i) & flags) == flags;
+    }
+    return 0;
 }

@@ -6,16 +6,31 @@
 #include "unit.h"
 #include <string.h>
 
-pg_status pg_schema_create (pg_schema *s, const pg_key_table *table, size_t ntable)
+pg_status pg_schema_create (pg_schema *s, const pg_vocabulary *from)
 {
     pg_status status = PG_OK;
     size_t n = 0;
-    for (size_t t = 0; t < ntable; t++) n += table[t].n;
+    s->from = from;
+    for (size_t t = 0; t < from->n; t++) n += from->table[t].n;
     PG_ALLOC (s->row, n);
-    for (size_t t = 0; t < ntable; t++)
-        for (size_t k = 0; k < table[t].n; k++) s->row[s->n++] = &table[t].key[k];
+    for (size_t t = 0; t < from->n; t++)
+        for (size_t k = 0; k < from->table[t].n; k++) s->row[s->n++] = &from->table[t].key[k];
 done:
     return status;
+}
+
+/* By the address of the row: rows are unique. */
+const char *pg_schema_entries (const pg_schema *s, const pg_key *row, const char **selector)
+{
+    for (size_t t = 0; s->from->owner && t < s->from->n; t++) {
+        const pg_key_owner *owner = &s->from->owner[t];
+        for (size_t k = 0; owner->catalogue && k < s->from->table[t].n; k++) {
+            if (row != &s->from->table[t].key[k]) continue;
+            if (selector) *selector = owner->catalogue->selector;
+            return owner->names;
+        }
+    }
+    return NULL;
 }
 
 void pg_schema_clear (pg_schema *s)

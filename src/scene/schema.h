@@ -8,14 +8,38 @@
 /* Lengths of a pattern and of the names of one level. */
 enum { PG_PATTERN = 256, PG_LEVEL_NAMES = 2000 };
 
-/* All rows; borrowed from the tables. */
-typedef struct { const pg_key **row; size_t n; } pg_schema;
+/* Most bytes of the names of entries that share a table. */
+enum { PG_OWNER_NAMES = 240 };
 
-/* All rows of these tables as one list. PG_E_MEMORY. */
-pg_status pg_schema_create (pg_schema *s, const pg_key_table *table, size_t ntable);
-/* All rows of the key tables of all folders as one list. PG_E_MEMORY. */
-pg_status pg_schema_of_all (pg_schema *s);
+/* Who owns a table: its rows as the entry declares them, the catalogue of the entry, and the names of all
+ * entries that share the table, "adr|relax". */
+typedef struct {
+    const pg_key *declared;
+    const pg_key_catalogue *catalogue;
+    char names[PG_OWNER_NAMES];
+} pg_key_owner;
+
+/* Key tables against which a scene is read. */
+typedef struct {
+    /* The tables (n). */
+    size_t              n;
+    const pg_key_table *table;
+    /* Who owns each (n), without a catalogue: all scenes have these keys; NULL: so it is for all tables. */
+    const pg_key_owner *owner;
+    /* Catalogues among whose entries keys of the scene choose (ncatalogue). */
+    size_t              ncatalogue;
+    const pg_key_catalogue *const *catalogue;
+} pg_vocabulary;
+
+/* All rows (n) of the tables; borrowed from them. */
+typedef struct { const pg_vocabulary *from; const pg_key **row; size_t n; } pg_schema;
+
+/* All rows of these tables as one list; both are kept. PG_E_MEMORY. */
+pg_status pg_schema_create (pg_schema *s, const pg_vocabulary *from);
 void      pg_schema_clear  (pg_schema *s);
+/* The entries that own a row, "adr|relax", and in *selector (unless NULL) the key that chooses among them;
+ * NULL: the row belongs to no entry. */
+const char *pg_schema_entries (const pg_schema *s, const pg_key *row, const char **selector);
 /* Appends `.name`, or `.{}` where the user chooses names (returns 2); 0: no such key, the pattern is kept. */
 int  pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length);
 /* Appends "[]"; 0: there is no list. */

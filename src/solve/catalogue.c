@@ -21,8 +21,7 @@ const pg_solver_type *pg_solver_find (const char *name)
     return NULL;
 }
 
-/* What lower folders ask; without a kind the first of the list is meant, which is the default of
- * solver.kind. */
+/* Without a kind the first of the list is meant, which is the default of solver.kind. */
 unsigned pg_solver_flags (const char *kind)
 {
     const pg_solver_type *type = kind ? pg_solver_find (kind) : entries[0];
@@ -60,5 +59,8 @@ void solver_names_that (int (*fits) (const pg_solver_type *type, const void *con
 /* ---- keys ---------------------------------------------------------------------------------------------- */
 static const char *name_of (size_t i) { return i < COUNT ? entries[i]->name : NULL; }
 static pg_key_tables keys_of (size_t i) { return entries[i]->keys; }
+static unsigned flags_of (size_t i) { return entries[i]->flags; }
 
-const pg_key_catalogue pg_entry_keys_solve = { .selector = "solver.kind", .name = name_of, .keys = keys_of };
+const pg_key_catalogue pg_entry_keys_solve = {
+    .selector = "solver.kind", .name = name_of, .keys = keys_of, .flags = flags_of
+};

@@ -57,21 +57,19 @@ static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, 
 static pg_status put_keys (writing *w, const pg_scene *scene, const char *root, const char *at)
 {
     pg_status status = PG_OK;
-    size_t ntable, length = strlen (root);
-    const pg_key_table *table = pg_scene_tables (&ntable);
+    size_t length = strlen (root);
+    const pg_key *key;
     char path[256], name[80];
-    for (size_t t = 0; t < ntable; t++)
-        for (size_t k = 0; k < table[t].n; k++) {
-            const pg_key *key = &table[t].key[k];
-            const char *last = key->path + length;
-            if (strncmp (key->path, root, length) != 0 || strpbrk (last, ".[{")
-                || (key->unit && strchr (key->unit, '|')))
-                continue;
-            snprintf (path, sizeof path, "%s%s", at, last);
-            if (!pg_scene_given (scene, "%s", path)) continue;
-            snprintf (name, sizeof name, "  %s%s", strncmp (at, "materials", 9) == 0 ? "  " : "", last);
-            PG_TRY (put_key (w, scene, key, path, name));
-        }
+    for (size_t k = 0; (key = pg_scene_known_key (scene, k)); k++) {
+        const char *last = key->path + length;
+        if (strncmp (key->path, root, length) != 0 || strpbrk (last, ".[{")
+            || (key->unit && strchr (key->unit, '|')))
+            continue;
+        snprintf (path, sizeof path, "%s%s", at, last);
+        if (!pg_scene_given (scene, "%s", path)) continue;
+        snprintf (name, sizeof name, "  %s%s", strncmp (at, "materials", 9) == 0 ? "  " : "", last);
+        PG_TRY (put_key (w, scene, key, path, name));
+    }
 done:
     return status;
 }
@@ -124,7 +122,7 @@ pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p,
         PG_TRY (put (&w, "    youngs_modulus: %.17g\n", p->vary[0].reference[PG_OF_STIFFNESS]));
     if (!(p->material[0].density > 0)) PG_TRY (put (&w, "    density: 1\n"));
     PG_TRY (put (&w, "failure: {criterion: none}\n"));
-    PG_TRY (pg_scene_parse (out, w.text, "the lattice of the scene"));
+    PG_TRY (pg_scene_parse_like (out, scene, w.text, "the lattice of the scene"));
 done:
     pg_free (w.text);
     return status;

@@ -3,7 +3,7 @@
  * small body is built, too, and passes all that `perigal check` asks of it. */
 #include "fuzz.h"
 #include "perigal/results.h"
-#include "scene/document.h"
+#include "scene/keys/keys.h"
 #include <math.h>
 
 enum { MOST_PAIRS = 60000 };                           /* evaluation points times neighbours */
@@ -95,10 +95,11 @@ static void build (const pg_scene *scene)
 int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
 {
     pg_scene *scene = NULL;
-    size_t ntable, used = pg_memory_used ();
-    const pg_key_table *table = pg_scene_tables (&ntable);
+    size_t used = pg_memory_used ();
+    const pg_vocabulary *words;
     if (size > LONGEST) return 0;
-    pg_status status = pg_scene_read (&scene, (const char *) data, size, name, 0, NULL, table, ntable);
+    FUZZ_EXPECT (pg_keys_of_all (&words) == PG_OK);
+    pg_status status = pg_scene_read (&scene, (const char *) data, size, name, 0, NULL, words, 0);
     FUZZ_EXPECT (answered (status) && status != PG_E_LIMIT);
     FUZZ_EXPECT ((status == PG_OK) == (scene != NULL));
     if (scene && small (scene)) build (scene);

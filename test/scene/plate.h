@@ -89,12 +89,13 @@ static const pg_key plate_keys[] = {
       .doc = "Fields." },
 };
 static const pg_key_table plate_table = { "plate", plate_keys, sizeof plate_keys / sizeof *plate_keys };
+static const pg_vocabulary plate_words = { .n = 1, .table = &plate_table };
 
 #define PLATE_HEAD "dimension: 2\nspacing: 2 mm\nmaterials: {rock: {youngs_modulus: 10 GPa}}\n"
 
 static inline pg_status plate_read_with (pg_scene **s, const char *text, size_t nset, const char *const *set)
 {
-    return pg_scene_read (s, text, strlen (text), "plate.yaml", nset, set, &plate_table, 1);
+    return pg_scene_read (s, text, strlen (text), "plate.yaml", nset, set, &plate_words, 0);
 }
 
 static inline pg_status plate_read (pg_scene **s, const char *text)

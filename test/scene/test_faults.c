@@ -283,8 +283,9 @@ static void wrong_defaults_of_a_table_are_found (void **state)
     static const pg_key keys[] = { { .path = "a", .kind = PG_NUMBER, .unit = "m", .fallback = "1 s" },
                                    { .path = "b", .kind = PG_NUMBER, .range = "0..1", .fallback = "2" } };
     static const pg_key_table table = { "wrong", keys, 2 };
+    static const pg_vocabulary words = { .n = 1, .table = &table };
     pg_scene *s = NULL;
-    check_fails (pg_scene_read (&s, "b: 1\n", 5, "x.yaml", 0, NULL, &table, 1), PG_E_SCENE);
+    check_fails (pg_scene_read (&s, "b: 1\n", 5, "x.yaml", 0, NULL, &words, 0), PG_E_SCENE);
     check_contains (pg_last_error (), "default: a = 1 s: 's' does not fit: expected m, for example 5 mm");
     check_contains (pg_last_error (), "x.yaml:1:1: b = 1: the range '0..1' of its key table is wrong");
 }

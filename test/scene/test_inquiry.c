@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Help, manual, nearest names, the hash, and the tables of all folders themselves. */
 #include "plate.h"
-#include "scene/help.h"
+#include "scene/keys/keys.h"
 #include "scene/sha256.h"
 #include "scene/unit.h"
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 static pg_schema plate_schema (void)
 {
     pg_schema s = { 0 };
-    check_ok (pg_schema_create (&s, &plate_table, 1));
+    check_ok (pg_schema_create (&s, &plate_words));
     return s;
 }
 
@@ -171,13 +171,13 @@ static int same_shape (pg_kind a, pg_kind b)  /* two rows of one path are altern
 static void tables_of_all_folders_are_sound (void **state)
 {
     (void) state;
-    size_t n;
+    const pg_vocabulary *words;
     pg_schema s = { 0 };
-    const pg_key_table *table = pg_scene_tables (&n);
-    assert_true (n > 0 && table[0].n > 0);
-    if (pg_scene_tables_fault ()) print_error ("%s of src/scene/tables.c\n", pg_scene_tables_fault ());
-    assert_null (pg_scene_tables_fault ());
-    check_ok (pg_schema_create (&s, table, n));
+    check_ok (pg_keys_of_all (&words));
+    check_ok (pg_schema_create (&s, words));
+    assert_true (s.n > 100);
+    assert_ptr_equal (pg_scene_key (s.n - 1), s.row[s.n - 1]);
+    assert_null (pg_scene_key (s.n));
     for (size_t k = 0; k < s.n; k++) {
         const pg_key *row = s.row[k];
         pg_measure m;

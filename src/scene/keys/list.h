@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * One line per folder that brings keys of the scene (const pg_key_table pg_keys_<folder>, in
- * src/<folder>/keys.c), and one per folder whose catalogue entries bring keys of their own (const
+ * src/<folder>/keys.c; those of the section `reference`, which `compare` reads,
+ * in reference.c), and one per folder whose catalogue entries bring keys of their own (const
  * pg_key_catalogue pg_entry_keys_<folder>). */
 PG_KEYS (scene)
 PG_KEYS (material)
@@ -16,5 +17,5 @@ PG_KEYS (model)
 PG_KEYS (contact)
 PG_KEYS (solve)
 PG_ENTRY_KEYS (solve)
-PG_KEYS (compare)
+PG_KEYS (reference)
 PG_KEYS (results)

@@ -2,8 +2,7 @@
  * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. A key may be
  * given by its full path, without the names that the user chooses (materials.{}.density or
  * materials.density), by its last word, or by the path of a map, for which the keys below are listed. */
-#include "help.h"
-#include "schema.h"
+#include "keys.h"
 #include <string.h>
 
 /* In the order of pg_kind. */
@@ -32,9 +31,9 @@ static void plain_path (char out[PG_PATTERN], const char *path)
 }
 
 /* Separators become commas. */
-void pg_help_meaning (FILE *to, const pg_key *key)
+void pg_help_meaning (FILE *to, const pg_schema *s, const pg_key *key)
 {
-    const char *entries = pg_key_entries (key, NULL);
+    const char *entries = pg_schema_entries (s, key, NULL);
     if (entries) fputc ('(', to);
     for (const char *c = entries; c && *c; c++) {
         if (*c == '|') fprintf (to, ", ");
@@ -91,7 +90,7 @@ static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
     const char *choices = pg_key_choices (key);
     char example[PG_LEVEL_NAMES], first[PG_LEVEL_NAMES];
     fprintf (to, "%s\n  ", key->path);
-    pg_help_meaning (to, key);
+    pg_help_meaning (to, s, key);
     fprintf (to, "\n  kind     %s\n", pg_key_kind (key));
     if (key->kind == PG_NUMBER) {
         pg_schema_wanted (s, key->path, example, sizeof example);
@@ -113,7 +112,7 @@ static void print_below (FILE *to, const pg_schema *s, const char *key)
     for (size_t k = 0; k < s->n; k++) {
         if (match (s->row[k], key) != 1) continue;
         fprintf (to, "%s    %-44s ", title, s->row[k]->path);
-        pg_help_meaning (to, s->row[k]);
+        pg_help_meaning (to, s, s->row[k]);
         fprintf (to, "\n");
         title = "";
     }
@@ -182,12 +181,21 @@ pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the help could not be written") : PG_OK;
 }
 
-/* Help from the tables of all folders. */
-pg_status pg_scene_help (FILE *to, const char *key)
+/* ---- of the keys of all folders ------------------------------------------------------------------------ */
+/* Writes help, manual or JSON schema; key: for help alone. */
+static pg_status write_all (FILE *to, const char *key, pg_status (*write) (FILE *, const pg_schema *))
 {
+    pg_status status = PG_OK;
+    const pg_vocabulary *words;
     pg_schema s = { 0 };
-    pg_status status = pg_schema_of_all (&s);
-    if (!status) status = pg_help_write (to, key, &s);
+    PG_TRY (pg_keys_of_all (&words));
+    PG_TRY (pg_schema_create (&s, words));
+    PG_TRY (write ? write (to, &s) : pg_help_write (to, key, &s));
+done:
     pg_schema_clear (&s);
     return status;
 }
+
+pg_status pg_scene_help (FILE *to, const char *key) { return write_all (to, key, NULL); }
+pg_status pg_scene_manual (FILE *to) { return write_all (to, NULL, pg_manual_write); }
+pg_status pg_scene_json_schema (FILE *to) { return write_all (to, NULL, pg_json_schema_write); }

@@ -50,4 +50,4 @@ static const pg_key keys[] = {
     ROW ("reference.where", PG_EXPRESSION, "bool", "",
          "Only where this condition in x, y, z, r, angle holds, such as away from a point load."),
 };
-const pg_key_table pg_keys_compare = { "compare", keys, sizeof keys / sizeof *keys };
+const pg_key_table pg_keys_reference = { "compare", keys, sizeof keys / sizeof *keys };

@@ -3,7 +3,7 @@
  * scene, and the unknowns of one step are read from result.e. With the coefficients in the
  * file and no broken bonds the field is that of the run itself, by its own shape functions;
  * otherwise the displacements of the points are fitted, and the difference is said in `how`. */
-#include "compare.h"
+#include "compare/compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * The keys of a scene as a JSON schema (draft 7), by which editors complete keys, show what they mean and
  * mark what is wrong. It comes from the rows that check a scene. What only the program can judge (units,
  * ranges of values with units, names of sets) is told in words. */
-#include "help.h"
+#include "keys.h"
 #include <string.h>
 
 /* A text in quotes of JSON. */
@@ -150,13 +150,4 @@ pg_status pg_json_schema_write (FILE *to, const pg_schema *s)
     put_entries (to, s, "", 1);
     fprintf (to, "}\n");
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the JSON schema could not be written") : PG_OK;
-}
-
-pg_status pg_scene_json_schema (FILE *to)
-{
-    pg_schema s = { 0 };
-    pg_status status = pg_schema_of_all (&s);
-    if (!status) status = pg_json_schema_write (to, &s);
-    pg_schema_clear (&s);
-    return status;
 }

@@ -3,7 +3,7 @@
  * history.csv that belongs to a step of result.e. `perigal run` copies the scene into the
  * folder and appends comment lines with its origin and with the --set options; both are taken
  * off here and applied again. */
-#include "compare.h"
+#include "compare/compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,18 +11,6 @@
 
 /* Largest number of --set options that are read back. */
 enum { MOST_SETTINGS = 64 };
-
-/* A zero byte would hide the rest of the text from the string functions, so it is refused. */
-pg_status pg_compare_load_text (const char *path, char **text)
-{
-    pg_status status = PG_OK;
-    size_t size;
-    PG_TRY (pg_file_text (text, &size, path));
-    if (memchr (*text, 0, size)) PG_FAIL (PG_E_FILE, "%s is not a text file", path);
-done:
-    if (status != PG_OK) pg_free (*text), *text = NULL;
-    return status;
-}
 
 /* ---- scene --------------------------------------------------------------------------------------------- */
 /* Four hexadecimal digits, as behind \u; -1: they are none. */

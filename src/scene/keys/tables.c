@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The key tables of all folders and of the entries of their catalogues, from list.h: gathered once, then
  * constant. */
-#include "schema.h"
-#include "perigal/scene.h"
+#include "keys.h"
 #include <pthread.h>
 #include <string.h>
 
@@ -12,25 +11,18 @@
 #undef PG_KEYS
 #undef PG_ENTRY_KEYS
 
-/* Most tables and copied rows; lengths of their texts. What does not fit is a fault of the build, which every
- * reading of a scene reports (pg_scene_tables_fault): raise the number that it names. */
-enum { MOST_TABLES = 96, MOST_TWINS = 64, NAMES = 240, TWIN_PATH = 96, TWIN_DOC = 160 };
-
-/* Whose the table of the same number is: the rows as their entry declares them, its catalogue, and the names
- * of all entries that share the table, "adr|relax". A table of a folder has none of these. */
-typedef struct {
-    const pg_key *declared;
-    const pg_key_catalogue *catalogue;
-    char names[NAMES];
-} table_owner;
+/* Most tables, catalogues and copied rows; lengths of the texts of those. What does not fit is a fault of the
+ * build, which every reading of a scene reports: raise the number that it names. */
+enum { MOST_TABLES = 96, MOST_CATALOGUES = 16, MOST_TWINS = 64, TWIN_PATH = 96, TWIN_DOC = 160 };
 
 /* All tables: filled once, by the first who asks, and constant from then on. The twins are rows once
  * more, for the second place at which a catalogue takes the keys of its entries (pg_key_catalogue.also). */
 static struct {
     pthread_once_t once;
-    size_t       ntable;
+    pg_vocabulary words;
     pg_key_table table[MOST_TABLES];
-    table_owner  owner[MOST_TABLES];
+    pg_key_owner owner[MOST_TABLES];
+    const pg_key_catalogue *catalogue[MOST_CATALOGUES];
     size_t       ntwin;
     pg_key       twin[MOST_TWINS];
     struct { char path[TWIN_PATH], doc[TWIN_DOC]; } twin_text[MOST_TWINS];
@@ -49,11 +41,12 @@ static int exceeds (size_t value, size_t limit, const char *name)
 static void add_table (const pg_key_table *table, const pg_key *declared, const pg_key_catalogue *catalogue,
                        const char *name)
 {
-    if (exceeds (all.ntable + 1, MOST_TABLES, "MOST_TABLES")) return;
-    table_owner *owner = &all.owner[all.ntable];
+    if (exceeds (all.words.n + 1, MOST_TABLES, "MOST_TABLES")) return;
+    pg_key_owner *owner = &all.owner[all.words.n];
     owner->declared = declared, owner->catalogue = catalogue;
-    exceeds ((size_t) snprintf (owner->names, NAMES, "%s", name), NAMES - 1, "NAMES");
-    all.table[all.ntable++] = *table;
+    int length = snprintf (owner->names, PG_OWNER_NAMES, "%s", name);
+    exceeds ((size_t) length, PG_OWNER_NAMES - 1, "PG_OWNER_NAMES");
+    all.table[all.words.n++] = *table;
 }
 
 /* Copies the rows of a table below the second place of their catalogue: "failure.cohesion" becomes
@@ -80,11 +73,11 @@ static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue 
 static int share_table (const pg_key_table *table, const char *name)
 {
     int shared = 0;
-    for (size_t t = 0; t < all.ntable; t++) {
+    for (size_t t = 0; t < all.words.n; t++) {
         if (all.owner[t].declared != table->key) continue;
         size_t used = strlen (all.owner[t].names);
-        int more = snprintf (all.owner[t].names + used, NAMES - used, "|%s", name);
-        exceeds (used + (size_t) more, NAMES - 1, "NAMES");
+        int more = snprintf (all.owner[t].names + used, PG_OWNER_NAMES - used, "|%s", name);
+        exceeds (used + (size_t) more, PG_OWNER_NAMES - 1, "PG_OWNER_NAMES");
         shared = 1;
     }
     return shared;
@@ -106,6 +99,8 @@ static void add_tables (pg_key_tables list, const pg_key_catalogue *catalogue, c
 static void add_entries (const pg_key_catalogue *catalogue)
 {
     const char *name;
+    if (exceeds (all.words.ncatalogue + 1, MOST_CATALOGUES, "MOST_CATALOGUES")) return;
+    all.catalogue[all.words.ncatalogue++] = catalogue;
     for (size_t i = 0; (name = catalogue->name (i)); i++) {
         if (catalogue->keys) add_tables (catalogue->keys (i), catalogue, name, 0);
         if (catalogue->keys_twice) add_tables (catalogue->keys_twice (i), catalogue, name, 1);
@@ -115,6 +110,7 @@ static void add_entries (const pg_key_catalogue *catalogue)
 /* Tables of all folders and catalogues, in the order of list.h. */
 static void gather (void)
 {
+    all.words = (pg_vocabulary) { .table = all.table, .owner = all.owner, .catalogue = all.catalogue };
 #define PG_KEYS(folder) add_table (&pg_keys_##folder, NULL, NULL, "");
 #define PG_ENTRY_KEYS(folder) add_entries (&pg_entry_keys_##folder);
 #include "list.h"
@@ -123,36 +119,21 @@ static void gather (void)
 }
 
 /* Gathered on the first call, whichever thread makes it. */
-const pg_key_table *pg_scene_tables (size_t *n)
+pg_status pg_keys_of_all (const pg_vocabulary **out)
 {
     pthread_once (&all.once, gather);
-    *n = all.ntable;
-    return all.table;
+    *out = &all.words;
+    return !all.fault ? PG_OK
+                      : pg_error (PG_E_LIMIT, PG_HERE,
+                                  "this build has more keys than their tables hold: raise %s in "
+                                  "src/scene/keys/tables.c", all.fault);
 }
 
-pg_status pg_schema_of_all (pg_schema *s)
+const pg_key *pg_scene_key (size_t k)
 {
-    size_t n;
-    const pg_key_table *table = pg_scene_tables (&n);
-    return pg_schema_create (s, table, n);
-}
-
-const char *pg_scene_tables_fault (void)
-{
-    pthread_once (&all.once, gather);
-    return all.fault;
-}
-
-/* By the address of the row: rows are unique. */
-const char *pg_key_entries (const pg_key *key, const char **selector)
-{
-    size_t n;
-    const pg_key_table *table = pg_scene_tables (&n);
-    for (size_t t = 0; t < n; t++)
-        for (size_t k = 0; all.owner[t].catalogue && k < table[t].n; k++) {
-            if (key != &table[t].key[k]) continue;
-            if (selector) *selector = all.owner[t].catalogue->selector;
-            return all.owner[t].names;
-        }
+    const pg_vocabulary *words;
+    if (pg_keys_of_all (&words) != PG_OK) return NULL;
+    for (size_t t = 0; t < words->n; k -= words->table[t++].n)
+        if (k < words->table[t].n) return &words->table[t].key[k];
     return NULL;
 }

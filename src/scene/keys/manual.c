@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Writes doc/input.md: an introduction, then one section with a table of keys for each word at the top of a
  * scene. */
-#include "expression.h"
-#include "help.h"
+#include "keys.h"
+#include "scene/expression.h"
 #include <string.h>
 
 /* Text before the tables. */
@@ -68,7 +68,7 @@ static void write_list (FILE *to, const char *names)
 }
 
 /* One key as a row of a table. */
-static void write_row (FILE *to, const pg_key *key)
+static void write_row (FILE *to, const pg_schema *s, const pg_key *key)
 {
     char first[PG_LEVEL_NAMES];
     const char *choices = pg_key_choices (key), *fallback = pg_key_default (key, first);
@@ -80,7 +80,7 @@ static void write_row (FILE *to, const pg_key *key)
     if (fallback && *fallback) fprintf (to, "`%s`", fallback);
     else if (!key->fallback && !key->group) fprintf (to, "**required**");
     fprintf (to, " | ");
-    pg_help_meaning (to, key);
+    pg_help_meaning (to, s, key);
     if (key->group) {
         const char *rule = strrchr (key->group, ':');
         int one = rule && strcmp (rule, ":one") == 0;
@@ -129,14 +129,14 @@ static void write_sections (FILE *to, const pg_schema *s)
     static const char first[] = "The whole scene";
     write_title (to, first, strlen (first));
     for (size_t k = 0; k < s->n; k++)
-        if (stands_alone (s, k)) write_row (to, s->row[k]);
+        if (stands_alone (s, k)) write_row (to, s, s->row[k]);
     for (size_t k = 0; k < s->n; k++) {
         const char *top = s->row[k]->path;
         if (stands_alone (s, k) || companions (s, k, k) > 0) continue;
         fprintf (to, "\n");
         write_title (to, top, top_length (top));
         for (size_t j = k; j < s->n; j++)
-            if (same_top (s->row[j]->path, top)) write_row (to, s->row[j]);
+            if (same_top (s->row[j]->path, top)) write_row (to, s, s->row[j]);
     }
 }
 
@@ -148,14 +148,4 @@ pg_status pg_manual_write (FILE *to, const pg_schema *s)
     fprintf (to, "%s## Keys\n\n", overrides);
     write_sections (to, s);
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the manual could not be written") : PG_OK;
-}
-
-/* The manual of the tables of all folders. */
-pg_status pg_scene_manual (FILE *to)
-{
-    pg_schema s = { 0 };
-    pg_status status = pg_schema_of_all (&s);
-    if (!status) status = pg_manual_write (to, &s);
-    pg_schema_clear (&s);
-    return status;
 }
