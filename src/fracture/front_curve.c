@@ -76,11 +76,12 @@ void front_turn_vector (const double *frame, const double *v, double *out)
 
 void front_turn_tensor (const double *frame, const double *T, double *out)
 {
-    double rows[9];
+    double rows[9];                                    /* of the frame times T */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            rows[3*i + j] = T[3*i] * frame[3*j] + T[3*i + 1] * frame[3*j + 1] + T[3*i + 2] * frame[3*j + 2];
+            rows[3*i + j] = frame[3*i] * T[j] + frame[3*i + 1] * T[3 + j] + frame[3*i + 2] * T[6 + j];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            out[3*i + j] = frame[3*i] * rows[j] + frame[3*i + 1] * rows[3 + j] + frame[3*i + 2] * rows[6 + j];
+            out[3*i + j] = frame[3*j] * rows[3*i] + frame[3*j + 1] * rows[3*i + 1]
+                           + frame[3*j + 2] * rows[3*i + 2];
 }

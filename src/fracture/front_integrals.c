@@ -1,6 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The integrals over one cross section of the tube around a front. Places are x = P (s) + y_1 e (s) + y_2 n
- * (s), y = r (cos theta, sin theta), and the frame turns along the front, db/ds = w x b. Then
+ * The integrals around a tip, and over one cross section of the tube around a front. With a weight q that
+ * falls from 1 at r1 to 0 at r2, and the divergence theorem, the line integral of Rice becomes one over the
+ * ring (Moran and Shih 1987),
+ *
+ *   J = int (sigma_ij u_i,1 - (W + W_k) delta_1j) q,j dA - int (b - rho a)_i u_i,1 q dA
+ *       - int rho v_i v_i,1 q dA,
+ *
+ * W_k = 1/2 rho v.v; bilinear in two displacements a and b whose sum is the field:
+ *
+ *   J_ab = int (1/2 (sigma^a_ij u^b_i,1 + sigma^b_ij u^a_i,1) - W_ab delta_1j) q,j dA - ...,  W_ab = 1/2
+ *   sigma^a : eps^b.
+ *
+ * With an exact field a of unit strength the mixed part of J (u + a) is the interaction integral
+ *
+ *   I = int (sigma_ij a_i,1 + s_ij u_i,1 - sigma_ij e_ij delta_1j) q,j dA - int (b - rho a)_i a_i,1 q dA,
+ *
+ * s and e its stress and strain: K = E'/2 I for the singular fields (K_III = mu I), T = E' I for the force on
+ * the tip.
+ *
+ * Where a mean dilatation carries the pressure p (Poisson's ratio near 1/2), sigma = D eps + (p - lambda tr
+ * eps) 1, and the energy that this stress belongs to is W = 1/2 eps D eps - lambda / 2 (tr eps)^2 + p^2 / (2
+ * lambda): with x = p - lambda tr eps, 1/2 eps D eps + x tr eps + x^2 / (2 lambda).
+ *
+ * In space places are x = P (s) + y_1 e (s) + y_2 n (s), y = r (cos theta, sin theta), and the frame turns
+ * along the front, db/ds = w x b. Then
  *
  *   dx/ds = L t + w_3 (y_1 n - y_2 e),   L = 1 - w_2 y_1 + w_1 y_2,   dV = L r dr dtheta ds,
  *
@@ -27,17 +50,25 @@
 #include <math.h>
 #include <string.h>
 
+/* q = 1 - z^2 (3 - 2 z). */
+double front_weight (double r, double r1, double r2, double *slope)
+{
+    double z = (r - r1) / (r2 - r1);
+    if (slope) *slope = z > 0 && z < 1 ? -6 * z * (1 - z) / (r2 - r1) : 0;
+    return z <= 0 ? 1 : z >= 1 ? 0 : 1 - z * z * (3 - 2 * z);
+}
+
 /* sigma_ij H_ik for k, j. */
 static double flux (const double *S, const double *H, int k, int j)
 {
     return S[j] * H[k] + S[3 + j] * H[3 + k] + S[6 + j] * H[6 + k];
 }
 
+/* sigma : eps; what lies in the plane first. */
 static double work (const double *S, const double *H)
 {
-    double sum = 0;
-    for (int i = 0; i < 9; i++) sum += S[i] * H[i];
-    return sum;
+    return S[0] * H[0] + S[4] * H[4] + S[1] * (H[1] + H[3])
+           + (S[8] * H[8] + S[2] * (H[2] + H[6]) + S[5] * (H[5] + H[7]));
 }
 
 /* Vector product of w with both indices of a tensor: W T - T W, W the matrix of w x. */
@@ -52,18 +83,35 @@ static void turned (const double *w, const double *T, double *out)
         }
 }
 
-/* W of two fields at a place. */
+/* W of two fields at place k. */
 static double energy (const front_sample *a, const front_sample *b, const tip_material *m, size_t k)
 {
     const double *G = a->H + 9*k, *H = b->H + 9*k;
     double W = 0.25 * (work (a->S + 9*k, H) + work (b->S + 9*k, G));
-    if (!a->excess || !b->excess) return W;
+    if (!a->excess || !b->excess || !(m->lambda > 0)) return W;
     double x = a->excess[k], y = b->excess[k], g = G[0] + G[4] + G[8], h = H[0] + H[4] + H[8];
     return W + 0.25 * (x * h + y * g) + 0.5 * x * y / m->lambda;
 }
 
-/* The terms of one place: with the gradient of Q along r, with Q and the hat, and with Q and hat'. */
-typedef struct { double slope, core, along; } terms;
+/* ---- the terms of one place ---------------------------------------------------------------------------- */
+/* Of two fields; J takes half of what each makes of the other, I the whole: P_11 and P_12 without W; W; what
+ * stands with Q and the hat; with Q and hat'; loads times what moves them along; kinetic terms. */
+typedef struct { double share, flux[2][2], W, core, along, load[2], kinetic, moving; } terms;
+
+/* All but the one with hat', for the weight Q of the gradient g. */
+static double at_weight (const terms *t, double Q, const double g[2])
+{
+    double sum = t->share * (t->flux[0][0] * g[0] + t->flux[0][1] * g[1]
+                             + (t->flux[1][0] * g[0] + t->flux[1][1] * g[1])) - t->W * g[0];
+    for (int a = 0; a < 2; a++) sum -= t->share * Q * t->load[a];
+    return sum - (Q * t->kinetic + t->moving * g[0]) + Q * t->core;
+}
+
+static double work_along (const front_sample *f, size_t k, const double *H)
+{
+    const double *load = f->load ? f->load + 3*k : NULL;
+    return load ? load[0] * H[0] + load[1] * H[3] + load[2] * H[6] : 0;
+}
 
 /* P_kj of J for two fields, without W. */
 static double flux_of_two (const front_sample *a, const front_sample *b, size_t place, int k, int j)
@@ -72,114 +120,174 @@ static double flux_of_two (const front_sample *a, const front_sample *b, size_t 
 }
 
 static terms terms_of_J (const front_sample *a, const front_sample *b, const tip_material *m, size_t k,
-                         const front_place *at, double theta, double L)
+                         const double *w, double L)
 {
-    double W = energy (a, b, m, k), c = cos (theta), s = sin (theta);
-    const double *w = at->turn;
-    if (a->moving && a == b) W += a->moving[k];
-    terms out = { .slope = (c * (flux_of_two (a, b, k, 0, 0) - W) + s * flux_of_two (a, b, k, 0, 1)) * L,
-                  .core = w[2] * flux_of_two (a, b, k, 1, 2) - w[1] * (flux_of_two (a, b, k, 2, 2) - W),
-                  .along = flux_of_two (a, b, k, 0, 2) };
-    for (size_t i = 0; i < 3; i++) {
-        if (a->load) out.core -= 0.5 * L * a->load[3*k + i] * b->H[9*k + 3*i];
-        if (b->load) out.core -= 0.5 * L * b->load[3*k + i] * a->H[9*k + 3*i];
-    }
-    if (a->kinetic && a == b) out.core -= L * a->kinetic[k];
+    double W = energy (a, b, m, k), moving = a->moving && a == b ? a->moving[k] : 0;
+    terms out = { .share = 0.5, .W = W, .moving = moving,
+                  .core = w[2] * flux_of_two (a, b, k, 1, 2)
+                          - w[1] * (flux_of_two (a, b, k, 2, 2) - W - moving),
+                  .along = flux_of_two (a, b, k, 0, 2),
+                  .load = { L * work_along (a, k, b->H + 9*k), L * work_along (b, k, a->H + 9*k) },
+                  .kinetic = a->kinetic && a == b ? L * a->kinetic[k] : 0 };
+    for (int j = 0; j < 2; j++)
+        out.flux[0][j] = flux (a->S + 9*k, b->H + 9*k, 0, j),
+        out.flux[1][j] = flux (b->S + 9*k, a->H + 9*k, 0, j);
     return out;
 }
 
 /* An exact field at a place: A, S, and L times their derivatives along t. */
 typedef struct { double A[9], S[9], A_t[9], S_t[9]; } exact;
 
-static void exact_at (int field, const tip_material *m, const front_place *at, double r, double theta,
-                      exact *out)
+static void exact_at (int field, const tip_material *m, const double *w, double r, double theta, exact *out)
 {
     static const double step = 1e-4;                   /* rad */
     front_near_field (field, m, r, theta, NULL, out->A, out->S);
-    turned (at->turn, out->A, out->A_t), turned (at->turn, out->S, out->S_t);
-    if (at->turn[2] == 0) return;
+    turned (w, out->A, out->A_t), turned (w, out->S, out->S_t);
+    if (w[2] == 0) return;
     double A[2][9], S[2][9];
     front_near_field (field, m, r, theta - step, NULL, A[0], S[0]);
     front_near_field (field, m, r, theta + step, NULL, A[1], S[1]);
     for (int i = 0; i < 9; i++) {
-        out->A_t[i] -= at->turn[2] * (A[1][i] - A[0][i]) / (2 * step);
-        out->S_t[i] -= at->turn[2] * (S[1][i] - S[0][i]) / (2 * step);
+        out->A_t[i] -= w[2] * (A[1][i] - A[0][i]) / (2 * step);
+        out->S_t[i] -= w[2] * (S[1][i] - S[0][i]) / (2 * step);
     }
 }
 
-static terms terms_of_I (const front_sample *f, const exact *x, size_t k, const front_place *at, double theta,
-                         double L)
+static terms terms_of_I (const front_sample *f, const exact *x, size_t k, const double *w, double L)
 {
-    const double *S = f->S + 9*k, *H = f->H + 9*k, *w = at->turn;
-    double W = work (S, x->A), c = cos (theta), s = sin (theta);
-    terms out = { .slope = L * (c * (flux (S, x->A, 0, 0) + flux (x->S, H, 0, 0) - W)
-                                + s * (flux (S, x->A, 0, 1) + flux (x->S, H, 0, 1))),
+    const double *S = f->S + 9*k, *H = f->H + 9*k;
+    double W = work (S, x->A);
+    terms out = { .share = 1, .W = W,
                   .core = w[2] * (flux (S, x->A, 1, 2) + flux (x->S, H, 1, 2))
                           - w[1] * (flux (S, x->A, 2, 2) + flux (x->S, H, 2, 2) - W)
                           + flux (S, x->A_t, 0, 2) + flux (x->S_t, H, 0, 2),
-                  .along = flux (S, x->A, 0, 2) + flux (x->S, H, 0, 2) };
-    for (size_t i = 0; f->load && i < 3; i++) out.core -= L * f->load[3*k + i] * x->A[3*i];
+                  .along = flux (S, x->A, 0, 2) + flux (x->S, H, 0, 2),
+                  .load = { L * work_along (f, k, x->A) } };
+    for (int j = 0; j < 2; j++)
+        out.flux[0][j] = flux (S, x->A, 0, j), out.flux[1][j] = flux (x->S, H, 0, j);
     return out;
 }
 
-double front_weight (double r, double r1, double r2, double *slope)
+/* ---- sums ---------------------------------------------------------------------------------------------- */
+/* The weight of each radius at a place, and its gradient times L; core: the place is next to the front. */
+typedef struct { double area, Q[FRONT_RADII], g[FRONT_RADII][2]; int radii, core; } weights;
+
+static weights weights_at (const measuring *m, const cross_section *s, const front_places *q, size_t k,
+                           double L)
 {
-    double z = (r - r1) / (r2 - r1);
-    if (slope) *slope = z > 0 && z < 1 ? -6 * z * (1 - z) / (r2 - r1) : 0;
-    return z <= 0 ? 1 : z >= 1 ? 0 : 1 - z * z * (3 - 2 * z);
+    weights out = { .area = q->area[k], .radii = s->radii, .core = q->r[k] < front_core * m->h };
+    double c = cos (q->theta[k]), sine = sin (q->theta[k]), slope;
+    for (int i = 0; i < s->radii; i++) {
+        out.Q[i] = front_weight (q->r[k], m->r1, m->radius[i], &slope);
+        out.g[i][0] = slope * c * L, out.g[i][1] = slope * sine * L;
+    }
+    return out;
+}
+
+/* A place into the sums of all radii, which are `each` numbers apart. */
+static void add (const weights *w, const terms *t, size_t each, double *sum, double *along)
+{
+    for (int i = 0; i < w->radii; i++, sum += each, along += each) {
+        if (w->Q[i] <= 0) continue;
+        *sum += w->area * at_weight (t, w->Q[i], w->g[i]);
+        if (!w->core) *along += w->area * w->Q[i] * t->along;
+    }
+}
+static void add_J (front_sums *out, const weights *w, const terms *t, int a, int b)
+{
+    add (w, t, 4, &out->J[0][a][b], &out->J_along[0][a][b]);
+}
+static void add_I (front_sums *out, const weights *w, const terms *t, int x, int a)
+{
+    add (w, t, 2 * FRONT_FIELDS, &out->I[0][x][a], &out->I_along[0][x][a]);
+}
+
+/* J of two fields is the same in both orders. */
+static void mirror (front_sums *out)
+{
+    for (int i = 0; i < FRONT_RADII; i++)
+        out->J[i][0][1] = out->J[i][1][0], out->J_along[i][0][1] = out->J_along[i][1][0];
 }
 
 /* The mean of the strain along the front over places between one spacing and the smallest radius. */
-static void add_strain (front_sums *out, const front_section *section, const front_place *at,
-                        const tip_material *m, size_t k, double share, int nfield, const front_sample *field)
+static void add_strain (front_sums *out, const measuring *m, const cross_section *s, const front_places *q,
+                        size_t k, double L)
 {
-    double u[3], y[2] = { section->r[k] * cos (section->theta[k]), section->r[k] * sin (section->theta[k]) },
-                 L = 1 - at->turn[1] * y[0] + at->turn[0] * y[1];
-    for (int a = 0; a < nfield; a++) out->strain[a] += share * field[a].H[9*k + 8];
+    const double *w = s->at.turn;
+    double u[3], share = q->area[k];
+    for (int a = 0; a < m->nfield; a++) out->strain[a] += share * q->field[a].H[9*k + 8];
     for (int i = 0; i < 2; i++) {
-        front_near_field (i, m, section->r[k], section->theta[k], u, NULL, NULL);
-        out->by_K[i] += share * (at->turn[0] * u[1] - at->turn[1] * u[0]) / fmax (L, 0.2);
+        front_near_field (i, &s->material, q->r[k], q->theta[k], u, NULL, NULL);
+        out->by_K[i] += share * (w[0] * u[1] - w[1] * u[0]) / fmax (L, 0.2);
     }
 }
 
-void front_integrals (front_sums *out, const front_section *section, const front_place *at,
-                      const tip_material *m, double h, int radii, const unsigned char *in, int nfield,
-                      const front_sample *field)
+void front_integrals (front_sums *out, const measuring *m, const cross_section *s, const front_places *q,
+                      size_t first, size_t last)
 {
+    const tip_material *material = &s->material;
     double ring = 0;                                   /* area of the places that the strain is taken from */
     memset (out, 0, sizeof *out);
-    for (size_t k = 0; k < FRONT_PLACES; k++) {
-        double r = section->r[k], theta = section->theta[k], slope[FRONT_RADII], Q[FRONT_RADII];
-        if (!in[k] || radii == 0 || r >= front_radius[radii - 1] * h) continue;
-        double L = 1 - at->turn[1] * r * cos (theta) + at->turn[0] * r * sin (theta);
-        int core = r < front_core * h;
-        for (int i = 0; i < radii; i++) Q[i] = front_weight (r, h, front_radius[i] * h, &slope[i]);
-        for (int a = 0; a < nfield; a++)
+    for (size_t k = first; k < last && s->radii; k++) {
+        double r = q->r[k], theta = q->theta[k];
+        double L = 1 - s->at.turn[1] * r * cos (theta) + s->at.turn[0] * r * sin (theta);
+        weights w = weights_at (m, s, q, k, L);
+        if (w.Q[s->radii - 1] <= 0) continue;
+        for (int a = 0; a < m->nfield; a++)
             for (int b = 0; b <= a; b++) {
-                terms t = terms_of_J (&field[a], &field[b], m, k, at, theta, L);
-                for (int i = 0; i < radii; i++) {
-                    out->J[i][a][b] += section->area[k] * (slope[i] * t.slope + Q[i] * t.core);
-                    if (!core) out->J_along[i][a][b] += section->area[k] * Q[i] * t.along;
-                }
+                terms t = terms_of_J (&q->field[a], &q->field[b], material, k, s->at.turn, L);
+                add_J (out, &w, &t, a, b);
             }
         for (int x = 0; x < FRONT_FIELDS; x++) {
             exact e;
-            exact_at (x, m, at, r, theta, &e);
-            for (int a = 0; a < nfield; a++) {
-                terms t = terms_of_I (&field[a], &e, k, at, theta, L);
-                for (int i = 0; i < radii; i++) {
-                    out->I[i][x][a] += section->area[k] * (slope[i] * t.slope + Q[i] * t.core);
-                    if (!core) out->I_along[i][x][a] += section->area[k] * Q[i] * t.along;
-                }
+            if (!front_has (material, x)) continue;
+            exact_at (x, material, s->at.turn, r, theta, &e);
+            for (int a = 0; a < m->nfield; a++) {
+                terms t = terms_of_I (&q->field[a], &e, k, s->at.turn, L);
+                add_I (out, &w, &t, x, a);
             }
         }
-        if (r < h || r > front_radius[0] * h) continue;
-        ring += section->area[k];
-        add_strain (out, section, at, m, k, section->area[k], nfield, field);
+        if (material->dim < 3 || r < m->h || r > m->radius[0]) continue;
+        ring += q->area[k];
+        add_strain (out, m, s, q, k, L);
     }
-    for (int i = 0; i < radii; i++)
-        out->J[i][0][1] = out->J[i][1][0], out->J_along[i][0][1] = out->J_along[i][1][0];
+    mirror (out);
     for (int i = 0; i < 2 && ring > 0; i++) out->strain[i] /= ring, out->by_K[i] /= ring;
+}
+
+/* A force at one place counts times the weight there instead of an integral. */
+void front_force_integrals (front_sums *out, const measuring *m, const cross_section *s,
+                            const front_places *q, size_t k, double A[FRONT_FIELDS][9])
+{
+    weights w = weights_at (m, s, q, k, 0);
+    for (int a = 0; a < m->nfield; a++) {
+        const front_sample *f = &q->field[a];
+        for (int b = 0; b <= a; b++) {
+            const front_sample *g = &q->field[b];
+            const terms t = { .share = 0.5,
+                              .load = { work_along (f, k, g->H + 9*k), work_along (g, k, f->H + 9*k) } };
+            add_J (out, &w, &t, a, b);
+        }
+        for (int x = 0; x < FRONT_FIELDS; x++) {
+            const terms t = { .share = 1, .load = { work_along (f, k, A[x]) } };
+            add_I (out, &w, &t, x, a);
+        }
+    }
+    mirror (out);
+}
+
+void tip_face_integrals (front_sums *out, const measuring *m, const front_places *faces)
+{
+    const cross_section *s = m->section;
+    for (size_t k = 0; k < faces->n; k++)
+        for (int i = 0; i < s->radii; i++) {
+            double q = front_weight (faces->r[k], m->r1, m->radius[i], NULL);
+            for (int a = 0; a < m->nfield; a++)
+                for (int b = 0; b <= a; b++)
+                    out->J[i][a][b] += faces->area[k] * q
+                                       * energy (&faces->field[a], &faces->field[b], &s->material, k);
+        }
+    mirror (out);
 }
 
 /* r (S_i3 A_i1) of modes II and III with each other does not depend on r: equal angles around, which sum

@@ -1,163 +1,213 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Springs on points in the tube around a front: their forces - k (u - g) are body forces at single places
- * (tip_springs.c), each in the cross section that it is nearest to, in equal shares where it is as near to
- * two, over the length of front that these stand for. */
+ * Springs that act on points within the rings of a tip, or in the tube around a front. A spring of stiffness
+ * k whose other end is at g pulls a point with the force - k (u - g): a body force that follows the
+ * displacement, so that it has the term of body forces in J and in the interaction integrals, summed over the
+ * points instead of integrated. It needs the displacement and its gradient at the points. In space each point
+ * counts in the cross section that it is nearest to, in equal shares where it is as near to two, over the
+ * length of front that these stand for.
+ *
+ * The exact fields grow without bound towards the tip, where a point may lie. What a point does there is
+ * spread over a disc as large as what belongs to it. */
 #include "front.h"
-#include "gradient_fit.h"
 #include <math.h>
 #include <string.h>
 
+enum { DISC_RADII = 2, DISC_ANGLES = 8 };              /* of the places in a disc */
 static const double pi = 3.14159265358979323846;
 
-/* A point that a spring pulls. */
-typedef struct {
-    const pg_load *load;
-    /* number within the set of the load; of cross sections */
-    size_t at, section;
-    double r, theta, size;                             /* in that section; radius of what belongs to it, m */
-    double share;                                      /* of the force that acts in that section */
-} pull;
+/* A point that a spring pulls: number within the set of its load; radius of what belongs to it, m. */
+typedef struct { const pg_load *load; size_t at; double size; } pull;
+
+/* The points that springs pull, one after the other, as places of cross sections; area: share over the length
+ * of front, 1/m. A point that several springs pull is there as often. */
+typedef struct { front_places q; pull *pull; size_t capacity; } pulls;
+
+static size_t point_of (const pull *one) { return (size_t) one->load->set->point[one->at]; }
 
 /* Where x lies in the slice of a cross section; returns how far from its middle, INFINITY: not in it, or
  * outside its tube. */
-static double place_in (const front_place *place, double h, const double *x, pull *out)
+static double place_in (const measuring *m, const cross_section *s, const double *x, double *r, double *theta)
 {
     double y[3] = { 0 };
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) y[i] += place->frame[3*i + k] * (x[k] - place->x[k]);
-    double r = hypot (y[0], y[1]);
-    if (r >= front_radius[FRONT_RADII - 1] * h || fabs (y[2]) > 0.75 * place->speed / FRONT_SECTIONS)
-        return INFINITY;
-    out->r = r, out->theta = atan2 (y[1], y[0]);
-    return hypot (r, y[2]);
+        for (int k = 0; k < m->p->dim; k++) y[i] += s->at.frame[3*i + k] * (x[k] - s->at.x[k]);
+    double most = m->radius[m->p->dim == 3 ? FRONT_RADII - 1 : s->radii - 1];
+    *r = hypot (y[0], y[1]), *theta = atan2 (y[1], y[0]);
+    return *r >= most || fabs (y[2]) > 0.75 * s->length ? INFINITY : hypot (*r, y[2]);
 }
 
-/* Appends the pull on x in the section that is nearest, in equal shares where several are. */
-static pg_status add_nearest (const front_springs *s, pull one, const double *x, pull **out, size_t *n,
-                              size_t *cap)
+/* Appends a pull on x in the sections that are nearest; counts them where there is no room yet. */
+static void add_nearest (const measuring *m, const pull *one, pulls *out)
 {
-    pg_status status = PG_OK;
-    double nearest = INFINITY, same = pg_cloud_same (&s->p->cloud);
-    size_t first = *n;
-    for (size_t j = 0; j < s->n; j++) nearest = fmin (nearest, place_in (&s->place[j], s->h, x, &one));
-    for (size_t j = 0; j < s->n && isfinite (nearest); j++) {
-        if (place_in (&s->place[j], s->h, x, &one) > nearest + same) continue;
-        PG_GROW (*out, *cap, *n + 1);
-        one.section = j, (*out)[(*n)++] = one;
+    const double *x = m->p->cloud.x + point_of (one) * (size_t) m->p->dim;
+    double nearest = INFINITY, same = pg_cloud_same (&m->p->cloud), r, theta;
+    size_t first = out->q.n;
+    for (size_t j = 0; j < m->n; j++)
+        nearest = fmin (nearest, place_in (m, &m->section[j], x, &r, &theta));
+    for (size_t j = 0; j < m->n && isfinite (nearest); j++) {
+        if (place_in (m, &m->section[j], x, &r, &theta) > nearest + same) continue;
+        size_t k = out->q.n++;
+        if (k >= out->capacity) continue;
+        out->q.r[k] = r, out->q.theta[k] = theta, out->q.of[k] = j, out->pull[k] = *one;
+        memcpy (out->q.x + k * (size_t) m->p->dim, x, (size_t) m->p->dim * sizeof *x);
     }
-    for (size_t k = first; k < *n; k++) (*out)[k].share = 1 / (double) (*n - first);
-done:
-    return status;
+    for (size_t k = first; k < out->q.n && k < out->capacity; k++)
+        out->q.area[k] = 1 / ((double) (out->q.n - first) * m->section[out->q.of[k]].length);
 }
 
-static pg_status find_pulls (const front_springs *s, pull **out, size_t *n)
+static void add_all (const measuring *m, pulls *out)
 {
-    pg_status status = PG_OK;
-    const pg_problem *p = s->p;
-    size_t cap = 0;
-    *n = 0;
+    const pg_problem *p = m->p;
+    out->q.n = 0;
     for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
-        for (size_t i = 0; load->kind == PG_SPRING && i < load->set->npoint; i++) {
-            size_t point = (size_t) load->set->point[i];
-            pull one = { .load = load, .at = i, .size = cbrt (0.75 / pi * p->cloud.volume[point]) };
-            if (!(pg_load_share (load, i) > 0)) continue;
-            PG_TRY (add_nearest (s, one, p->cloud.x + 3 * point, out, n, &cap));
+        pull one = { .load = &p->load[l] };
+        if (one.load->kind != PG_SPRING) continue;
+        for (; one.at < one.load->set->npoint; one.at++) {
+            double volume = p->cloud.volume[point_of (&one)];
+            one.size = p->dim == 3 ? cbrt (0.75 / pi * volume) : sqrt (volume / (pi * p->cloud.thickness));
+            if (pg_load_share (one.load, one.at) > 0) add_nearest (m, &one, out);
         }
     }
-done:
-    return status;
 }
 
 /* The gradient of an exact field around r, theta, as the mean over a disc that does not reach across the
  * crack. */
-static void mean_gradient (int field, const tip_material *m, const pull *q, double *A)
+static void mean_gradient (int field, const tip_material *m, double r, double theta, double size, double *A)
 {
-    enum { RADII = 2, ANGLES = 8 };
-    double x = q->r * cos (q->theta), y = q->r * sin (q->theta), at[RADII], w[RADII], H[9];
+    double x = r * cos (theta), y = r * sin (theta), at[DISC_RADII], w[DISC_RADII], H[9];
     memset (A, 0, 9 * sizeof *A);
-    pg_gauss_rule (RADII, at, w);
-    for (int i = 0; i < RADII; i++)
-        for (int j = 0; j < ANGLES; j++) {
-            double away = q->size * sqrt (0.5 * (1 + at[i])), angle = 2 * pi * (j + 0.5) / ANGLES;
+    if (!front_has (m, field)) return;
+    pg_gauss_rule (DISC_RADII, at, w);
+    for (int i = 0; i < DISC_RADII; i++)
+        for (int j = 0; j < DISC_ANGLES; j++) {
+            /* equal weights in the square of the radius are equal areas */
+            double away = size * sqrt (0.5 * (1 + at[i])), angle = 2 * pi * (j + 0.5) / DISC_ANGLES;
             double a = x + away * cos (angle), b = y + away * sin (angle);
             if (a < 0 && b * y < 0) b = -b;
             front_near_field (field, m, hypot (a, b), atan2 (b, a), NULL, H, NULL);
-            for (int k = 0; k < 9; k++) A[k] += 0.5 * w[i] / ANGLES * H[k];
+            for (int k = 0; k < 9; k++) A[k] += 0.5 * w[i] / DISC_ANGLES * H[k];
         }
 }
 
-/* Force of a spring in field a, N, in the scene; u: displacement of its point. */
-static void pull_of (const front_springs *s, const pull *q, int a, const double *x, const double *u,
-                     double *force)
+/* Force of the springs of point i at x whose displacement is u, N, in the frame. */
+static void pull_of (const measuring *m, const pg_load *load, size_t i, const double *x, const double *u,
+                     int at, const double *frame, double *force)
 {
-    const pg_load *load = q->load;
     const double *site = pg_load_site (load, x);
-    for (int c = 0; c < 3; c++) {
-        force[c] = 0;
+    double scene[3] = { 0 };
+    for (int c = 0; c < m->p->dim; c++) {
         if (!(load->stiffness[c] > 0)) continue;
-        double end = pg_load_value (load, c, 3, site, s->t[a]);
-        if (a > 0) end -= pg_load_value (load, c, 3, site, s->t[0]);
-        force[c] = -load->stiffness[c] * pg_load_share (load, q->at) * q->share * (u[c] - end);
+        double end = pg_load_value (load, c, m->p->dim, site, m->t[at]);
+        if (at > 0) end -= pg_load_value (load, c, m->p->dim, site, m->t[0]);
+        scene[c] = -load->stiffness[c] * pg_load_share (load, i) * (u[c] - end);
     }
+    front_turn_vector (frame, scene, force);
 }
 
-/* Adds one pull to the sums of its section; force and H (of each field) in the frame of that section. */
-static void add_pull (const front_springs *s, const pull *q, const tip_material *m, double force[][3],
-                      double H[][9])
+/* A point that no other one sees, such as one on a crack, has no gradient, and what pulls it pulls nothing
+ * else. */
+static int is_alone (front_sample *f, size_t k)
 {
-    front_sums *out = &s->sums[q->section];
-    double per_length = FRONT_SECTIONS / s->place[q->section].speed, A[FRONT_FIELDS][9];
-    for (int x = 0; x < FRONT_FIELDS; x++) mean_gradient (x, m, q, A[x]);
-    for (int i = 0; i < s->radii[q->section]; i++) {
-        double Q = per_length * front_weight (q->r, s->h, front_radius[i] * s->h, NULL);
-        for (int a = 0; a < s->nfield; a++) {
-            for (int b = 0; b <= a; b++)
-                for (int c = 0; c < 3; c++)
-                    out->J[i][a][b] -= 0.5 * Q * (force[a][c] * H[b][3*c] + force[b][c] * H[a][3*c]);
-            for (int x = 0; x < FRONT_FIELDS; x++)
-                for (int c = 0; c < 3; c++) out->I[i][x][a] -= Q * force[a][c] * A[x][3*c];
-        }
-        out->J[i][0][1] = out->J[i][1][0];
-    }
+    double sum = f->excess ? f->excess[k] : 0;
+    for (size_t c = 0; c < 3; c++) sum += f->u[3*k + c];
+    for (size_t c = 0; c < 9; c++) sum += f->H[9*k + c] + f->S[9*k + c];
+    if (isfinite (sum)) return 0;
+    memset (f->u + 3*k, 0, 3 * sizeof *f->u);
+    memset (f->H + 9*k, 0, 9 * sizeof *f->H), memset (f->S + 9*k, 0, 9 * sizeof *f->S);
+    if (f->excess) f->excess[k] = 0;
+    return 1;
 }
 
-pg_status front_springs_add (const front_springs *s)
+pg_status springs_add (const measuring *m)
 {
     pg_status status = PG_OK;
-    pull *q = NULL;
-    double *x = NULL, *u[TIP_FIELDS] = { NULL, NULL }, *gradient[TIP_FIELDS] = { NULL, NULL };
-    size_t n;
-    PG_TRY (find_pulls (s, &q, &n));
-    if (!n) goto done;
-    PG_ALLOC (x, 3 * n);
-    for (size_t k = 0; k < n; k++)
-        memcpy (x + 3*k, s->p->cloud.x + 3 * (size_t) q[k].load->set->point[q[k].at], 3 * sizeof *x);
-    for (int a = 0; a < s->nfield; a++) {
-        PG_ALLOC (u[a], 3 * n);
-        PG_ALLOC (gradient[a], 9 * n);
-        PG_TRY (gradient_sample (s->p, s->force, s->self, s->state, s->d[a].d, n, x, u[a], NULL,
-                                 gradient[a]));
+    pulls s = { .pull = NULL };
+    front_places *q = &s.q;
+    add_all (m, &s);
+    size_t n = q->n;
+    if (!n) return PG_OK;
+    PG_TRY (places_create (q, n));
+    PG_ALLOC (s.pull, n);
+    s.capacity = n;
+    add_all (m, &s);
+    for (int a = 0; a < m->nfield; a++) {
+        front_sample *f = &q->field[a];
+        PG_ALLOC (f->load, 3 * n);
+        PG_TRY (places_sample (q, m, a));
         for (size_t k = 0; k < n; k++) {
-            double moved[3];
-            mean_motion_at (&s->d[a], x + 3*k, 3, moved);
-            for (size_t c = 0; c < 3; c++) u[a][3*k + c] += moved[c];
+            if (!is_alone (f, k))
+                pull_of (m, s.pull[k].load, s.pull[k].at, q->x + k * (size_t) m->p->dim, f->u + 3*k, a,
+                         m->section[q->of[k]].at.frame, f->load + 3*k);
+            places_part (q, m, a, k);
         }
     }
     for (size_t k = 0; k < n; k++) {
-        const double *frame = s->place[q[k].section].frame;
-        tip_material m = s->material (s->context, s->place[q[k].section].x);
-        double force[TIP_FIELDS][3], H[TIP_FIELDS][9], pulled[3];
-        for (int a = 0; a < s->nfield; a++) {
-            pull_of (s, &q[k], a, x + 3*k, u[a] + 3*k, pulled);
-            front_turn_vector (frame, pulled, force[a]);
-            front_turn_tensor (frame, gradient[a] + 9*k, H[a]);
-            s->part (s->context, a, q[k].section, &m, H[a]);
-        }
-        add_pull (s, &q[k], &m, force, H);
+        cross_section *at = &m->section[q->of[k]];
+        double A[FRONT_FIELDS][9];
+        for (int x = 0; x < FRONT_FIELDS; x++)
+            mean_gradient (x, &at->material, q->r[k], q->theta[k], s.pull[k].size, A[x]);
+        front_force_integrals (&at->sums, m, at, q, k, A);
     }
 done:
-    pg_free (q), pg_free (x);
-    for (int a = 0; a < TIP_FIELDS; a++) pg_free (u[a]), pg_free (gradient[a]);
+    places_clear (q);
+    pg_free (s.pull);
+    return status;
+}
+
+/* ---- as a body force ----------------------------------------------------------------------------------- */
+/* The point of a list that is nearest to x; n: the list is empty. */
+static size_t nearest_of (const pg_problem *p, const size_t *list, size_t n, const double *x)
+{
+    size_t best = n;
+    double least = INFINITY;
+    for (size_t k = 0; k < n; k++) {
+        double d = hypot (p->cloud.x[2 * list[k]] - x[0], p->cloud.x[2 * list[k] + 1] - x[1]);
+        if (d < least) least = d, best = k;
+    }
+    return best;
+}
+
+/* Nodes that may be the nearest of a place within `reach` of x. */
+static pg_status nodes_around (const pg_problem *p, const double *x, double reach, size_t **list, size_t *n)
+{
+    pg_status status = PG_OK;
+    size_t cap = 0;
+    *n = 0;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        if (hypot (p->cloud.x[2*i] - x[0], p->cloud.x[2*i + 1] - x[1]) > reach) continue;
+        PG_GROW (*list, cap, *n + 1);
+        (*list)[(*n)++] = i;
+    }
+done:
+    return status;
+}
+
+pg_status springs_spread (front_places *q, const measuring *m, int at, double reach)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = m->p;
+    const front_place *section = &m->section[0].at;
+    front_sample *f = &q->field[at];
+    size_t *node = NULL, n = 0, springs = 0, *of = NULL;
+    for (size_t l = 0; l < p->nload; l++) springs += p->load[l].kind == PG_SPRING;
+    if (!springs) return PG_OK;
+    PG_TRY (nodes_around (p, section->x, reach + 2 * m->h, &node, &n));
+    PG_ALLOC (of, p->cloud.n);
+    if (!f->load) PG_ALLOC (f->load, 3 * q->capacity);
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (load->kind != PG_SPRING) continue;
+        memset (of, 0, p->cloud.n * sizeof *of);       /* 1 + number within the set */
+        for (size_t i = 0; i < load->set->npoint; i++) of[load->set->point[i]] = 1 + i;
+        for (size_t k = 0; k < q->n; k++) {
+            size_t near = nearest_of (p, node, n, q->x + 2*k);
+            double force[3];
+            if (near == n || !of[node[near]]) continue;
+            pull_of (m, load, of[node[near]] - 1, q->x + 2*k, f->u + 3*k, at, section->frame, force);
+            for (size_t c = 0; c < 2; c++) f->load[3*k + c] += force[c] / p->cloud.volume[node[near]];
+        }
+    }
+done:
+    pg_free (node), pg_free (of);
     return status;
 }

@@ -15,24 +15,28 @@
 static const double pi = 3.14159265358979323846;
 
 /* ---- integration points -------------------------------------------------------------------------------- */
-void front_section_make (front_section *out, double h)
+pg_status front_places_make (front_places *out, double h)
 {
-    enum { PIECES = 6, ARC = 4, MOST = 4 };
+    enum { PIECES = 6, ARC = 4, MOST = 4, RINGS = 16, ANGLES = 32 };
+    pg_status status = PG_OK;
     static const double end[PIECES + 1] = { 0, 0.5, 1, 1.5, 2.25, 3, 4 };
     static const int order[PIECES] = { 2, 2, 2, 3, 3, 4 };
-    double x[MOST], w[MOST], y[ARC], v[ARC], arc = 2 * pi * ARC / FRONT_ANGLES;
-    size_t n = 0;
+    double x[MOST], w[MOST], y[ARC], v[ARC], arc = 2 * pi * ARC / ANGLES;
+    PG_TRY (places_create (out, RINGS * ANGLES));
     pg_gauss_rule (ARC, y, v);
     for (int piece = 0; piece < PIECES; piece++) {
         double length = (end[piece + 1] - end[piece]) * h;
         pg_gauss_rule (order[piece], x, w);
         for (int i = 0; i < order[piece]; i++)
-            for (int j = 0; j < FRONT_ANGLES; j++, n++) {
+            for (int j = 0; j < ANGLES; j++) {
+                size_t n = out->n++;
                 out->r[n] = end[piece] * h + 0.5 * (1 + x[i]) * length;
                 out->theta[n] = -pi + arc * (j / ARC + 0.5 * (1 + y[j % ARC]));
                 out->area[n] = 0.25 * w[i] * v[j % ARC] * length * arc * out->r[n];
             }
     }
+done:
+    return status;
 }
 
 /* ---- room ---------------------------------------------------------------------------------------------- */

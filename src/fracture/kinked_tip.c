@@ -22,9 +22,8 @@
  * subtracted, which the new pieces then bear; what they carry beyond it, all of it next to the kink where
  * they have opened, adds int t . h q ds over both faces. So wings of a closed crack are those of an open one
  * under the rest of the field. */
-#include "gradient_fit.h"
 #include "kinked_crack.h"
-#include "tip.h"
+#include "front.h"
 #include <math.h>
 #include <string.h>
 
@@ -122,75 +121,74 @@ done:
 /* A place of the scene in the frame of the kink, in units of r1. */
 static double complex frame_of (const turned *t, const double *x)
 {
-    double v[2] = { x[0] - t->x[2 * t->kink], x[1] - t->x[2 * t->kink + 1] }, w[2];
-    tip_turn (t->e, v, w);
-    return (w[0] + _Complex_I * w[1]) / t->r1;
+    double v[2] = { x[0] - t->x[2 * t->kink], x[1] - t->x[2 * t->kink + 1] };
+    return (t->e[0] * v[0] + t->e[1] * v[1] + _Complex_I * (t->e[0] * v[1] - t->e[1] * v[0])) / t->r1;
 }
 
 /* ---- the field in the ring ----------------------------------------------------------------------------- */
 /* Subtracts the stress S (11, 22, 12, uniform) and the stress that bears the body force b at the kink, with
  * their displacements. */
-static void subtract (tip_grid *grid, int at, const tip_material *m, const kinked_faces *f)
+static void subtract (front_places *q, int at, const tip_material *m, const kinked_faces *f)
 {
-    double modulus = m->modulus, nu = (3 - m->kappa) / (1 + m->kappa), *u = grid->field[at].u,
-           *s = grid->field[at].stress, *load = grid->field[at].load;
+    double modulus = m->modulus, nu = (3 - m->kappa) / (1 + m->kappa), *u = q->field[at].u,
+           *s = q->field[at].S, *load = q->field[at].load;
     double e11 = (f->S[0] - nu * f->S[1]) / modulus, e22 = (f->S[1] - nu * f->S[0]) / modulus,
            e12 = f->S[2] / (2 * m->mu), b1 = f->b[0] / modulus, b2 = f->b[1] / modulus;
-    for (size_t k = 0; k < grid->n; k++) {
-        double x = grid->r[k] * cos (grid->theta[k]), y = grid->r[k] * sin (grid->theta[k]);
-        u[2*k] -= e11 * x + e12 * y - 0.5 * b1 * (x * x + nu * y * y) + nu * b2 * x * y;
-        u[2*k + 1] -= e12 * x + e22 * y - 0.5 * b2 * (y * y + nu * x * x) + nu * b1 * x * y;
-        s[3*k] -= f->S[0] - f->b[0] * x, s[3*k + 1] -= f->S[1] - f->b[1] * y, s[3*k + 2] -= f->S[2];
-        if (load) load[2*k] -= f->b[0], load[2*k + 1] -= f->b[1];
+    for (size_t k = 0; k < q->n; k++) {
+        double x = q->r[k] * cos (q->theta[k]), y = q->r[k] * sin (q->theta[k]);
+        u[3*k] -= e11 * x + e12 * y - 0.5 * b1 * (x * x + nu * y * y) + nu * b2 * x * y;
+        u[3*k + 1] -= e12 * x + e22 * y - 0.5 * b2 * (y * y + nu * x * x) + nu * b1 * x * y;
+        s[9*k] -= f->S[0] - f->b[0] * x, s[9*k + 4] -= f->S[1] - f->b[1] * y, s[9*k + 1] -= f->S[2];
+        if (load) load[3*k] -= f->b[0], load[3*k + 1] -= f->b[1];
     }
 }
 
 /* The mean displacement and rotation of the ring have no integral but for rounding and quadrature, which
  * would see them: off. spin: the rotation that the gradient lacks. */
-static void take_rigid_motion_off (tip_grid *grid, int at, double spin)
+static void take_rigid_motion_off (front_places *q, int at, double spin)
 {
-    double sum[3] = { 0 }, area = 0, *u = grid->field[at].u;
-    for (size_t k = 0; k < grid->n; k++) {
-        const double *H = grid->field[at].H + 4*k;
-        double w = grid->area[k];
-        area += w, sum[0] += w * u[2*k], sum[1] += w * u[2*k + 1], sum[2] += 0.5 * w * (H[2] - H[1]);
+    double sum[3] = { 0 }, area = 0, *u = q->field[at].u;
+    for (size_t k = 0; k < q->n; k++) {
+        const double *H = q->field[at].H + 9*k;
+        double w = q->area[k];
+        area += w, sum[0] += w * u[3*k], sum[1] += w * u[3*k + 1], sum[2] += 0.5 * w * (H[3] - H[1]);
     }
     for (int i = 0; i < 3; i++) sum[i] /= area;
     sum[2] += spin;
-    for (size_t k = 0; k < grid->n; k++) {
-        double x = grid->r[k] * cos (grid->theta[k]), y = grid->r[k] * sin (grid->theta[k]);
-        u[2*k] -= sum[0] - sum[2] * y, u[2*k + 1] -= sum[1] + sum[2] * x;
+    for (size_t k = 0; k < q->n; k++) {
+        double x = q->r[k] * cos (q->theta[k]), y = q->r[k] * sin (q->theta[k]);
+        u[3*k] -= sum[0] - sum[2] * y, u[3*k + 1] -= sum[1] + sum[2] * x;
     }
 }
 
 /* Body force at the kink: the mean over the ring. */
-static void mean_load (const tip_grid *grid, int at, double *b)
+static void mean_load (const front_places *q, int at, double *b)
 {
     double area = 0;
     b[0] = b[1] = 0;
-    for (size_t k = 0; grid->field[at].load && k < grid->n; k++) {
-        area += grid->area[k];
-        for (int i = 0; i < 2; i++) b[i] += grid->area[k] * grid->field[at].load[2*k + i];
+    for (size_t k = 0; q->field[at].load && k < q->n; k++) {
+        area += q->area[k];
+        for (size_t i = 0; i < 2; i++) b[i] += q->area[k] * q->field[at].load[3*k + i];
     }
     for (int i = 0; i < 2; i++) b[i] = area > 0 ? b[i] / area : 0;
 }
 
 /* Adds the moments of field `at` over the ring r1 .. r2, from which K_I and K_II of the tip follow. */
-static void add_ring (kinked_moments *out, const tip_grid *grid, int at, const tip_material *m,
+static void add_ring (kinked_moments *out, const front_places *ring, int at, const tip_material *m,
                       const turned *t, double r1, double r2, double extent)
 {
     double unit = t->r1;
-    const tip_sample *f = &grid->field[at];
-    for (size_t k = 0; k < grid->n; k++) {
-        double slope, q = tip_weight (grid->r[k], r1, r2, &slope), c = cos (grid->theta[k]),
-                      s = sin (grid->theta[k]), g[2] = { slope * c * unit, slope * s * unit },
-                      w = grid->area[k] / (unit * unit);
-        const double *S = f->stress + 3*k, u[2] = { w * f->u[2*k] / unit, w * f->u[2*k + 1] / unit };
+    const front_sample *f = &ring->field[at];
+    for (size_t k = 0; k < ring->n; k++) {
+        double slope, q = front_weight (ring->r[k], r1, r2, &slope), c = cos (ring->theta[k]),
+                      s = sin (ring->theta[k]), g[2] = { slope * c * unit, slope * s * unit },
+                      w = ring->area[k] / (unit * unit);
+        const double *S = f->S + 9*k, u[2] = { w * f->u[3*k] / unit, w * f->u[3*k + 1] / unit };
         if (q <= 0) continue;
-        kinked_place at_k = { .z = grid->r[k] / unit * (c + _Complex_I * s),
-                              .t = w * (S[0] * g[0] + S[2] * g[1] + _Complex_I * (S[2] * g[0] + S[1] * g[1])),
+        kinked_place at_k = { .z = ring->r[k] / unit * (c + _Complex_I * s),
+                              .t = w * (S[0] * g[0] + S[1] * g[1] + _Complex_I * (S[1] * g[0] + S[4] * g[1])),
                               .M = { u[0] * g[0], u[1] * g[1], 0.5 * (u[0] * g[1] + u[1] * g[0]) } };
-        if (f->load) at_k.t -= w * q * unit * (f->load[2*k] + _Complex_I * f->load[2*k + 1]);
+        if (f->load) at_k.t -= w * q * unit * (f->load[3*k] + _Complex_I * f->load[3*k + 1]);
         if (slope != 0 || f->load) kinked_moments_add (out, &at_k, m->mu, m->kappa, extent / unit);
     }
 }
@@ -233,32 +231,36 @@ static void add_faces (kinked_moments *out, const straight_faces *faces, int at,
                        const turned *t, double r1)
 {
     for (int i = 0; faces->any && i < KINKED_PLACES; i++) {
-        double slope, q = tip_weight (kinked_place_at (t->r2, i), r1, t->r2, &slope);
+        double q = front_weight (kinked_place_at (t->r2, i), r1, t->r2, NULL);
         kinked_moments_face (out, i, faces->more[at][i], q, m->mu, m->kappa, t->r2 / t->r1);
     }
 }
 
-/* Samples the ring and leaves in it fields with free straight faces and without body force at the kink. */
-static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_field *ring,
-                              const tip_material *m, const pg_problem *p, const pg_force_type *force,
-                              void *self, const pg_state *state, int nfield, const mean_motion *d,
-                              const double *t, size_t node, const straight_faces *press)
+/* Samples the ring and leaves in it fields with free straight faces and without body force at the kink, u in
+ * its frame. */
+static pg_status sample_ring (front_places *q, kinked_faces *faces, const measuring *m,
+                              const pg_tip_field *ring, const straight_faces *press)
 {
     pg_status status = PG_OK;
-    int forced = tip_has_body_force (p, node);
-    PG_TRY (tip_grid_create (grid, p, ring, 0));
-    grid->nfield = (size_t) nfield;
-    for (int a = 0; a < nfield; a++) {
-        PG_TRY (tip_grid_sample (grid, a, ring, m, p, force, self, state, &d[a]));
-        if (forced) PG_TRY (tip_add_body_force (grid, a, ring, p, node, t));
-        PG_TRY (tip_springs_spread (grid, a, ring, p, t));
-        double pressure = tip_pressure (p, a, t);
-        take_rigid_motion_off (grid, a, d[a].spin[2]);
-        const double *s = press->mean[a];
-        kinked_faces all = { .S = { -pressure, s[1] - pressure, s[0] } };
-        mean_load (grid, a, all.b);
-        subtract (grid, a, m, &all);
-        faces[a] = (kinked_faces) { .S = { 0, s[1], s[0] },
+    const cross_section *s = m->section;
+    int forced = has_body_force (m->p, s->node);
+    PG_TRY (tip_rings_create (q, m->p, ring, 0));
+    for (int a = 0; a < m->nfield; a++) {
+        const double *stress = press->mean[a];
+        double *u, pressure = m->pressure[a];
+        PG_TRY (places_sample (q, m, a));
+        if (forced) PG_TRY (places_force (q, m, a));
+        PG_TRY (springs_spread (q, m, a, ring->wide));
+        u = q->field[a].u;
+        for (size_t k = 0; k < q->n; k++) {
+            const double scene[3] = { u[3*k], u[3*k + 1] };
+            front_turn_vector (s->at.frame, scene, u + 3*k);
+        }
+        take_rigid_motion_off (q, a, m->field[a].spin[2]);
+        kinked_faces all = { .S = { -pressure, stress[1] - pressure, stress[0] } };
+        mean_load (q, a, all.b);
+        subtract (q, a, &s->material, &all);
+        faces[a] = (kinked_faces) { .S = { 0, stress[1], stress[0] },
                                     .b = { all.b[0] * ring->r1, all.b[1] * ring->r1 } };
     }
 done:
@@ -290,7 +292,7 @@ done:
 static const double trial_angles[PG_TIP_TRIALS] = { -0.8, -0.4, 0, 0.4, 0.8 };
 
 /* K at the end of the trial facets. */
-static pg_status measure_trials (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,
+static pg_status measure_trials (pg_tip_field *out, const turned *t, const front_places *grid, int nfield,
                                  const tip_material *m, const kinked_faces *faces,
                                  const straight_faces *press, double facet)
 {
@@ -319,7 +321,7 @@ done:
 }
 
 /* K and J at the tip by the ring, J also by the outer half of it. */
-static pg_status measure_tip (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,
+static pg_status measure_tip (pg_tip_field *out, const turned *t, const front_places *grid, int nfield,
                               const tip_material *m, const kinked_faces *faces, const straight_faces *press,
                               int *done)
 {
@@ -353,33 +355,35 @@ done:
     return status;
 }
 
-pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
-                              const pg_state *state, size_t tip, int nfield, const mean_motion *d,
-                              const double *times, double facet, const tip_material *material,
+pg_status kinked_tip_measure (pg_tip_field *out, const measuring *at_tip, size_t tip, double facet,
                               const pg_tip_faces *touch, int *done)
 {
     pg_status status = PG_OK;
+    const pg_problem *p = at_tip->p;
+    const tip_material *material = &at_tip->section->material;
+    measuring m = *at_tip;
+    cross_section at_kink;
     turned t = { 0 };
-    tip_grid grid = { 0 };
+    front_places grid = { 0 };
     kinked_faces faces[TIP_FIELDS];
     straight_faces press;
-    size_t node = tip_node_at (p, out->x);
     *done = 0;
-    PG_TRY (find_kink (&t, p, state, tip, out->h, node, touch, done));
+    PG_TRY (find_kink (&t, p, m.state, tip, out->h, at_tip->section->node, touch, done));
     if (!*done) goto done;
     const double *kink = t.x + 2 * t.kink;
-    look_at_faces (&press, &t, touch, out->h, nfield);
+    look_at_faces (&press, &t, touch, out->h, m.nfield);
     pg_tip_field ring = { .x = { kink[0], kink[1] }, .e = { t.e[0], t.e[1] }, .h = out->h, .r1 = t.r1,
                           .near = 0.5 * (t.r1 + t.r2), .wide = t.r2 };
-    PG_TRY (sample_ring (&grid, faces, &ring, material, p, force, self, state, nfield, d, times,
-                         tip_node_at (p, kink), &press));
-    PG_TRY (measure_tip (out, &t, &grid, nfield, material, faces, &press, done));
+    at_kink = tip_section (p, kink, t.e, tip_node_at (p, kink)), at_kink.material = *material;
+    m.section = &at_kink;
+    PG_TRY (sample_ring (&grid, faces, &m, &ring, &press));
+    PG_TRY (measure_tip (out, &t, &grid, m.nfield, material, faces, &press, done));
     if (!*done) goto done;
     out->r1 = ring.r1, out->near = ring.near, out->wide = ring.wide, out->kinked = 1;
     for (int k = 0; k < 2; k++) out->kink[k] = kink[k], out->e[k] = t.ahead[k];
-    PG_TRY (measure_trials (out, &t, &grid, nfield, material, faces, &press, facet));
+    PG_TRY (measure_trials (out, &t, &grid, m.nfield, material, faces, &press, facet));
 done:
-    tip_grid_clear (&grid);
+    places_clear (&grid);
     pg_free (t.x);
     return status;
 }

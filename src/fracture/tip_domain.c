@@ -8,7 +8,7 @@
  * field of a larger one is not yet that of the new facet. The wide one, which gives the magnitude, ends at 8,
  * but not far beyond the last turn of the crack, for J is independent of the ring only where the crack is
  * straight. Measured on cracks that grew (doc/accuracy.md); below 1.5 a ring knows nothing. */
-#include "tip.h"
+#include "front.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "fracture/front.h"
 
 static const double h = 1, turn[3] = { 0.08, -0.11, 0.17 };       /* per spacing */
-static const tip_material elastic = { .mu = 1.25, .kappa = 1.8, .modulus = 8 * 1.25 / 2.8 };
+static const tip_material elastic = { .dim = 3, .mu = 1.25, .kappa = 1.8, .modulus = 8 * 1.25 / 2.8 };
 
 /* Product of 3 x 3 matrices, a transposed if asked. */
 static void product (int transposed, const double *a, const double *b, double *out)
@@ -103,36 +103,38 @@ static double by_definition (int field, double r2, const double *x, double *J)
 
 static void a_place_has_the_terms_of_the_definition (void **state)
 {
+    enum { ANGLES = 32 };                              /* of a ring of places */
     static const int ring[] = { 2, 5, 8, 11, 14 }, angle[] = { 1, 7, 13, 18, 26, 30 };
-    static front_section section;
-    static double field[9 * FRONT_PLACES], stress[9 * FRONT_PLACES];
-    front_sample f = { .H = field, .S = stress };
-    front_place at = { .frame = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, .speed = 1 };
+    front_places q;
+    measuring m = { .nfield = 1, .h = h, .r1 = h };
+    cross_section s = { .at = { .frame = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, .speed = 1 }, .radii = FRONT_RADII,
+                        .material = elastic };
     double turned = 0;
     (void) state;
-    memcpy (at.turn, turn, sizeof turn);
-    front_section_make (&section, h);
-    for (size_t k = 0; k < FRONT_PLACES; k++) memcpy (field + 9*k, H, sizeof H), memcpy (stress + 9*k,
-        sigma, sizeof sigma);
+    memcpy (s.at.turn, turn, sizeof turn);
+    for (int i = 0; i < FRONT_RADII; i++) m.radius[i] = front_radius[i] * h;
+    check_ok (front_places_make (&q, h));
+    front_sample *f = &q.field[0];
+    f->H = pg_calloc (9 * q.n, sizeof *f->H), f->S = pg_calloc (9 * q.n, sizeof *f->S);
+    for (size_t k = 0; k < q.n; k++)
+        memcpy (f->H + 9*k, H, sizeof H), memcpy (f->S + 9*k, sigma, sizeof sigma);
     for (size_t a = 0; a < sizeof ring / sizeof *ring; a++)
         for (size_t b = 0; b < sizeof angle / sizeof *angle; b++) {
-            size_t k = (size_t) (ring[a] * FRONT_ANGLES + angle[b]);
-            static unsigned char in[FRONT_PLACES];
-            double r = section.r[k], theta = section.theta[k], x[3] = { r * cos (theta), r * sin (theta),
-                0 }, J,
+            size_t k = (size_t) (ring[a] * ANGLES + angle[b]);
+            double r = q.r[k], theta = q.theta[k], x[3] = { r * cos (theta), r * sin (theta), 0 }, J,
                    L = 1 - turn[1] * x[0] + turn[0] * x[1];
             front_sums sums;
-            memset (in, 0, sizeof in), in[k] = 1;
-            front_integrals (&sums, &section, &at, &elastic, h, FRONT_RADII, in, 1, &f);
+            front_integrals (&sums, &m, &s, &q, k, k + 1);
             for (int i = 0; i < FRONT_RADII; i++)
                 for (int field_of = 0; field_of < FRONT_FIELDS; field_of++) {
-                    if (r >= front_radius[i] * h) continue;
-                    double right = L * by_definition (field_of, front_radius[i] * h, x, &J);
-                    check_scaled (sums.I[i][field_of][0] / section.area[k], right, 1e-6, 1);
-                    check_scaled (sums.J[i][0][0] / section.area[k], L * J, 1e-6, 1);
+                    if (r >= m.radius[i]) continue;
+                    double right = L * by_definition (field_of, m.radius[i], x, &J);
+                    check_scaled (sums.I[i][field_of][0] / q.area[k], right, 1e-6, 1);
+                    check_scaled (sums.J[i][0][0] / q.area[k], L * J, 1e-6, 1);
                     turned = fmax (turned, fabs (right));
                 }
         }
+    places_clear (&q);
     assert_true (turned > 0.1);
 }
 
