@@ -10,7 +10,7 @@ SIZE    ?= full
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
 # One-way order of the folders, nested ones by their path (mechanics/bonds): a file sees its own folder and those to its left (doc/architecture.md).
-ORDER   := base ranks scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture contact symbol solve output picture compare results scene/keys compare/stored session study cli
+ORDER   := base ranks scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture contact symbol solve output picture compare results scene/keys compare/stored plan session study cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libpng-dev libqhull-dev libcmocka-dev

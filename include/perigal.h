@@ -39,6 +39,7 @@
 #include "perigal/picture.h"
 #include "perigal/compare.h"
 #include "perigal/results.h"
+#include "perigal/plan.h"
 #include "perigal/session.h"
 #include "perigal/study.h"
 #endif

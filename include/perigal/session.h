@@ -8,6 +8,7 @@
  * Indices count from 0. Arrays of vectors are row-major: those of a point side by side. */
 #ifndef PERIGAL_SESSION_H
 #define PERIGAL_SESSION_H
+#include "perigal/plan.h"
 #include "perigal/results.h"
 
 PG_API_BEGIN

@@ -52,7 +52,6 @@ pg_status pg_crack_paths_reserve (pg_crack_paths *paths, size_t n);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot
  * carry or show becomes a fault. */
-pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing);
 void      pg_method_note_ignored    (pg_problem *problem, const pg_scene *scene);
 pg_status pg_method_check_materials (const pg_problem *problem, const pg_scene *scene);
 void      pg_method_check_criterion (const pg_problem *problem, const pg_scene *scene);

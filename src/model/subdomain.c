@@ -77,14 +77,6 @@ static void check_all (against *a, const pg_method *method)
     if (!pg_scene_entry_is (a->scene, "solver.kind", PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
 }
 
-/* By the forecast of one process: a body so large that it is solved without a factor. */
-static int is_large (const pg_scene *scene, const pg_method *const *methods)
-{
-    pg_forecast f = { 0 };
-    pg_ranks_divide (0);                               /* every rank counts for itself */
-    return pg_forecast_scene (&f, scene, methods) == PG_OK && !f.linear;
-}
-
 /* Of shape functions off a lattice, what only the built problem knows to be refused: a dilatation that is
  * projected, supports by elimination. Where it may be, `auto` does without subdomains. */
 static int may_be_refused (const pg_scene *scene, const pg_method *method)
@@ -107,15 +99,11 @@ static int may_be_refused (const pg_scene *scene, const pg_method *method)
     return yes;
 }
 
-int pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods)
+int pg_subdomain_can (const pg_method *method, const pg_scene *scene)
 {
-    const pg_method *method = pg_method_of (methods, scene);
     against a = { .scene = scene, .quiet = 1 };
-    if (!pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT)) return 1;
-    if (!is (scene, "solver.division", "auto")) return is (scene, "solver.division", "subdomains");
-    if (pg_rank_count () < 2 || !method) return 0;
     check_all (&a, method);
-    return a.n == 0 && !may_be_refused (scene, method) && is_large (scene, methods);
+    return a.n == 0 && !may_be_refused (scene, method);
 }
 
 pg_status pg_subdomain_check (const pg_method *method, const pg_scene *scene)

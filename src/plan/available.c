@@ -2,7 +2,7 @@
  * How much memory is left: the least of what the machine has free (MemAvailable), what each control group
  * above the process still grants (limit minus use, file cache counted as free), and RLIMIT_AS minus the
  * address space in use. */
-#include "perigal/model.h"
+#include "perigal/plan.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * Private to the forecast: counting on a lattice (tally.c), the factor by nested dissection (forecast.c). */
 #ifndef PG_FORECAST_PRIVATE_H
 #define PG_FORECAST_PRIVATE_H
-#include "model.h"
+#include "perigal/plan.h"
 
 typedef struct {
     const pg_lattice *lattice;
