@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include "model/scenes.h"
 #include "perigal/linalg.h"
+#include "perigal/plan.h"
 
 #define ROCK "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
 #define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n" ROCK
