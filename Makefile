@@ -10,7 +10,7 @@ SIZE    ?= full
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
 # One-way order of the folders, nested ones by their path (mechanics/bonds): a file sees its own folder and those to its left (doc/architecture.md).
-ORDER   := base ranks scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture contact symbol solve output picture compare results scene/keys compare/stored plan session study cli
+ORDER   := base ranks scene discretization/kernel mechanics/material mechanics/criterion linalg netcdf geometry/mesh io/mesh_files geometry/cloud geometry/cells approx discretization/integration sums model force fracture contact symbol solve output picture app/compare results scene/keys app/compare/stored app/plan app/session app/study app/cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libpng-dev libqhull-dev libcmocka-dev
@@ -23,7 +23,7 @@ THREADED := base sums force
 # most tests compute little themselves: those of other folders than these compile in half the time
 COSTLY   := linalg sums force contact picture
 # what make compilers builds and runs
-PORTABLE := base kernel material criterion linalg approx integration sums force solve
+PORTABLE := base discretization/kernel mechanics/material mechanics/criterion linalg approx discretization/integration sums force solve
 T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
 # What every run loads when it starts; --as-needed: only those that are called directly.
 LIBS    := -Wl,--as-needed -lfftw3 -lyaml -ludunits2 -lm -lpthread -ldl
@@ -53,9 +53,9 @@ FUZZ    ?= scene points expression mesh table result checkpoint
 FUZZ_BUILD ?= build/fuzz
 
 ALL     := $(sort $(shell find src -name '*.c'))
-CLI     := $(filter src/cli/%,$(ALL))
+CLI     := $(filter src/app/cli/%,$(ALL))
 MPISRC  := $(filter src/mpi/%,$(ALL))
-SOURCES := $(filter-out $(CLI) $(MPISRC) src/convert/%,$(ALL))
+SOURCES := $(filter-out $(CLI) $(MPISRC) src/app/convert/%,$(ALL))
 TESTS   := $(sort $(shell find test -name 'test_*.c'))
 TOOLS   := $(wildcard bench/*.c)
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
@@ -99,10 +99,10 @@ NEW     := $(sort $(wildcard data/new/*/*))
 $(BUILD)/new_scenes.h: $(NEW) .ci/new_scenes Makefile
 	@mkdir -p $(@D)
 	$(Q).ci/new_scenes $(NEW) > $@.new && mv $@.new $@
-$(BUILD)/src/cli/new.o: $(BUILD)/new_scenes.h
-$(BUILD)/src/cli/new.o: CFLAGS += -I$(BUILD)
+$(BUILD)/src/app/cli/new.o: $(BUILD)/new_scenes.h
+$(BUILD)/src/app/cli/new.o: CFLAGS += -I$(BUILD)
 $(BUILD)/src/netcdf/library.o: CFLAGS += $(call soname,NETCDF,netcdf)
-$(BUILD)/src/cloud/delaunay.o: CFLAGS += $(call soname,QHULL,qhull_r)
+$(BUILD)/src/geometry/cloud/delaunay.o: CFLAGS += $(call soname,QHULL,qhull_r)
 $(BUILD)/src/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
 $(BUILD)/src/picture/canvas_png.o: CFLAGS += $(call soname,PNG,png16)
 
@@ -119,9 +119,9 @@ $(PROGRAM): $(CLIOBJ) $(BEHIND)
 	$(if $(V),,@echo "  LD   $@")
 	$(Q)$(CC) $(LDFLAGS) $(CLIOBJ) $(LINKED) $(LIBS) -o $@
 
-$(BUILD)/src/convert/%.o: CFLAGS += $(if $(shell grep -A3 '^GMSH_API void gmshInitialize' $(GMSH) /dev/null | grep -w run),-DGMSH_RUN)
+$(BUILD)/src/app/convert/%.o: CFLAGS += $(if $(shell grep -A3 '^GMSH_API void gmshInitialize' $(GMSH) /dev/null | grep -w run),-DGMSH_RUN)
 
-$(BUILD)/perigal-mesh: $(BUILD)/src/convert/perigal_mesh.o $(LIB)
+$(BUILD)/perigal-mesh: $(BUILD)/src/app/convert/perigal_mesh.o $(LIB)
 	$(if $(V),,@echo "  LD   $@")
 	$(Q)$(CC) $(LDFLAGS) $^ -lgmsh $(LIBS) -o $@
 
@@ -250,7 +250,7 @@ accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites the
 
 bench-programs: $(BENCHBIN) $(MPI) $(RANKSBIN)
 # tests that print what doc/accuracy_tables.md shows
-ACCURACY := cells/test_cut force/test_estimate force/test_rigid_motion scene_runs/test_disk scene_runs/test_incompressible scene_runs/test_mesh scene_runs/test_notch scene_runs/test_uncracked_disk
+ACCURACY := geometry/cells/test_cut force/test_estimate force/test_rigid_motion scene_runs/test_disk scene_runs/test_incompressible scene_runs/test_mesh scene_runs/test_notch scene_runs/test_uncracked_disk
 
 install: all
 	install -d $(addprefix $(DESTDIR)$(prefix)/,bin lib/pkgconfig include/perigal share/doc/perigal/doc share/man/man1 share/bash-completion/completions)
@@ -283,4 +283,4 @@ print-%:
 
 .PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress random kills fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
--include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(MPIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)
+-include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/app/convert/perigal_mesh.d $(MPIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -3,7 +3,7 @@ import collections, glob, os, random, re, subprocess
 
 OBJECTS = 'build/release/'
 FORCE = 'pg_force_type'                              # the interface that all mechanics are reached by
-MECHANICS = {'force', 'approx', 'integration', 'sums'}         # folders that may ask whether there are shape functions
+MECHANICS = {'force', 'approx', 'discretization/integration', 'sums'}         # folders that may ask whether there are shape functions
 RANKS = {'ranks', 'mpi'}                             # folders that may know of several processes
 # Where the tree is to arrive. Measures without a limit are there to be watched.
 THEN = {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Points that no lattice gives, divided among ranks by bisection of their coordinates
- * (cloud/subdomain_points.c) and by METIS (G. Karypis and V. Kumar, SIAM J. Sci. Comput. 20 (1998) 359), for
+ * (geometry/cloud/subdomain_points.c) and by METIS (G. Karypis and V. Kumar, SIAM J. Sci. Comput. 20
+ * (1998) 359), for
  * doc/scale.md:
  *
  *     division RANKS SCENE...

@@ -29,7 +29,7 @@ class Skipped(Exception):
 
 # ---- Markdown --------------------------------------------------------------------------------------------------------
 def command(*lines):
-    """An indented block; test/cli/test_doc_commands.sh runs or checks its lines."""
+    """An indented block; test/app/cli/test_doc_commands.sh runs or checks its lines."""
     return ["    " + line for line in lines] + [""]
 
 

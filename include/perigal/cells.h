@@ -25,7 +25,8 @@ typedef struct {
     size_t  npoint, nfacet;
     /* Indices of points (npoint) and of facets (nfacet), ascending. */
     int    *point, *facet;
-    /* Points of the set that belong to none of its facets (pg_marks in src/cells: a facet's points are its
+    /* Points of the set that belong to none of its facets (pg_marks in src/geometry/cells: a facet's points
+     * are its
      * own nodes or those of the cell behind it). A set that has an inside, such as a layer or `where: x < 1
      * mm`, must constrain these points one by one, beside integrating over its facets. Not filled (0, NULL)
      * where the set was chosen by its faces. */
@@ -154,7 +155,8 @@ void      pg_cells_clear (pg_cells *cells);
 /* ---- cut cells ----------------------------------------------------------------------------------------- */
 /* Quadrature points in the part of a cell that lies in the body: positions x (m, n x dim), weights (m^3 in
  * cells, m^2 on facets, thickness included) and, on facets, outward unit normals (n x dim; zero in cells).
- * Method: dimension reduction after Saye 2015, doi 10.1137/140966290 (src/cells/cut_points.c). All weights
+ * Method: dimension reduction after Saye 2015, doi 10.1137/140966290 (src/geometry/cells/cut_points.c).
+ * All weights
  * are positive; as the boundary is curved, their sum equals the volume only to the accuracy of the order. */
 typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_points;
 /* Append points to `out` (zero at first) with `order` Gauss points per direction, at least

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * criterion.h: when a bond breaks. Utilisation 1 is the limit; tension positive.
- * Catalogue: src/criterion/<name>.c + one line in list.h. Sources: Cui 2022 section 1.1; theory F2. */
+ * Catalogue: src/mechanics/criterion/<name>.c + one line in list.h. Sources: Cui 2022 section 1.1;
+ * theory F2. */
 #ifndef PERIGAL_CRITERION_H
 #define PERIGAL_CRITERION_H
 #include "perigal/material.h"

@@ -2,7 +2,7 @@
  * integration.h: where the weak form is evaluated: quadrature points in cells and on facets, faces between
  * cells, corrected (consistent) derivatives, patches of the dilatation, and the stabilisation of nodal
  * integration. Cui 2022, section 2.5. A way to integrate is an entry of the catalogue:
- * src/integration/NAME.c and one line in list.h. */
+ * src/discretization/integration/NAME.c and one line in list.h. */
 #ifndef PERIGAL_INTEGRATION_H
 #define PERIGAL_INTEGRATION_H
 #include "perigal/approx.h"

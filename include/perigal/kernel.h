@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * kernel.h: influence functions w(q), q = r / horizon in [0, 1], the weight of a neighbour at distance r. A
- * kernel is an entry of the catalogue: src/kernel/NAME.c and one line in list.h. */
+ * kernel is an entry of the catalogue: src/discretization/kernel/NAME.c and one line in list.h. */
 #ifndef PERIGAL_KERNEL_H
 #define PERIGAL_KERNEL_H
 #include "perigal/base.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * material.h: stress from strain. Voigt order xx yy zz xy yz zx, engineering shears; 2D (xx yy xy), 1D (xx).
- * Catalogue: src/material/<name>.c + one line in list.h. */
+ * Catalogue: src/mechanics/material/<name>.c + one line in list.h. */
 #ifndef PERIGAL_MATERIAL_H
 #define PERIGAL_MATERIAL_H
 #include "perigal/base.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * mesh_files.h: meshes, and fields on them, read from files. Catalogue of formats:
- * src/mesh_files/<name>.c + one line in list.h; the format of a file is recognised by its content, never
+ * src/io/mesh_files/<name>.c + one line in list.h; the format of a file is recognised by its content, never
  * by its name.
  *
  * | format        | versions                         | mesh | nodal fields                                |

@@ -38,7 +38,7 @@ static void put_nodes (void *context, size_t first, size_t last, int thread)
 }
 
 #define INLINE static inline __attribute__ ((always_inline))
-/* Elongation of a bond, in the order of sums of src/criterion/stretch.c. */
+/* Elongation of a bond, in the order of sums of src/mechanics/criterion/stretch.c. */
 INLINE double elongation (const double *from, const double *to, double square)
 {
     four xi = *(const four *) to - *(const four *) from,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The bonds that new pieces of cracks cut, facets in the plane and triangles in space. Only the new ones are
- * asked, through an index of their own (cloud/crack_index.c): first the box of all of them, then for each
+ * asked, through an index of their own (geometry/cloud/crack_index.c): first the box of all of them,
+ * then for each
  * point the boxes near it, then its bonds. */
 #include "model.h"
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal-mpi: `mpirun -n N perigal-mpi run SCENE.yaml` runs a scene on several processes, with the same
  * options, messages, exit codes and files as `perigal run`; `check` says what it would do. */
-#include "../cli/cli.h"
+#include "../app/cli/cli.h"
 #include "messages.h"
 #include "petsc_factor.h"
 #include "petsc_library.h"

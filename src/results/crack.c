@@ -12,7 +12,8 @@
  *
  * Where points fail, with all their bonds, a crack is a band of them, and the bonds that reach into it from
  * either side are cut as well: their count is that of several cracks. The band is about a horizon wide, from
- * which the energy that a point can store is derived too (criterion/node_energy.c), so that a failed point
+ * which the energy that a point can store is derived too (mechanics/criterion/node_energy.c), so that a
+ * failed point
  * stands for the area V_i / horizon. */
 #include "results_private.h"
 #include <math.h>

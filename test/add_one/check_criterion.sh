@@ -1,4 +1,4 @@
-# ---- criterion/tresca.c ----
+# ---- mechanics/criterion/tresca.c ----
 listed tresca "largest shear stress reaches the shear strength"
 offered failure.criterion tresca
 key failure.shear_strength "(tresca) Largest shear stress"

@@ -1,4 +1,4 @@
-# ---- kernel/cosine.c ----
+# ---- discretization/kernel/cosine.c ----
 listed cosine "(1 + cos (pi q)) / 2"
 offered method.kernel cosine
 expect "a run with it"                        0 '*' '*' run plate.yaml -o "$work/cosine" "${once[@]}" --set method.kernel=cosine

@@ -1,4 +1,4 @@
-# ---- material/cubic.c ----
+# ---- mechanics/material/cubic.c ----
 listed cubic "linear, cubic symmetry"
 offered 'materials.{}.model' cubic
 key 'materials.{}.stiffness_44' "(cubic) Shear modulus"

@@ -3,7 +3,7 @@
 # list.h, and then the program knows it everywhere: in its lists, its help, its messages, its manual, its runs.
 tree=$(dirname "$0")/../..
 program=$("$(dirname "$0")/build" "$1") || { echo "not ok 1 - a program with the entries of test/add_one is built"; exit 1; }
-. "$tree/test/cli/expect.sh" "$program"
+. "$tree/test/app/cli/expect.sh" "$program"
 cd "$(dirname "$0")" || exit 1
 verdict "a program with one file and one line more for each entry is built" 0
 "$perigal" list > "$work/list"; "$perigal" help --manual > "$work/manual"

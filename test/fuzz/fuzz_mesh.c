@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Any bytes as a mesh file of any format: a mesh whose parts fit together, or a fault that names the file. */
 #include "fuzz.h"
-#include "mesh_files/format.h"
+#include "io/mesh_files/format.h"
 #include <math.h>
 
 static void check_sets (const pg_mesh *m)

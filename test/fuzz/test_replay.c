@@ -97,7 +97,7 @@ static void other_files_that_were_found_are_answered (void **state)
 static void wrong_scenes_leave_nothing_behind (void **state)
 {
     (void) state;
-    assert_true (replay (fuzz_scene, "test/cli/wrong", "") > 90);
+    assert_true (replay (fuzz_scene, "test/app/cli/wrong", "") > 90);
 }
 
 /* Also a file that was not written to its end. */

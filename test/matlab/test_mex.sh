@@ -2,7 +2,7 @@
 # test_mex.sh BUILD: the compiled functions of matlab-compat in Octave, and that the same C is accepted with the signatures of MATLAB's MEX API.
 # PERIGAL_TEST_SIZE=long: steps of one more kind, more rounds of memory.
 # Skipped, with a line that says so, where there is no Octave, no package netcdf of it, or no mkoctfile (package octave-dev).
-. "$(dirname "$0")/../cli/expect.sh"
+. "$(dirname "$0")/../app/cli/expect.sh"
 root=$(realpath "$(dirname "$0")/../.."); build=$(realpath "$1")
 octave=$(command -v octave-cli) || { echo "ok 1 - skipped: there is no octave-cli"; echo "1..1"; exit 0; }
 "$octave" -qf --eval 'pkg load netcdf' > /dev/null 2>&1 || { echo "ok 1 - skipped: Octave has no package netcdf"; echo "1..1"; exit 0; }

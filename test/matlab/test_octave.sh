@@ -1,7 +1,7 @@
 #!/bin/bash
 # test_octave.sh BUILD: the functions of matlab-compat in Octave: right answers, and errors with the right identifiers. Skipped, with a line
 # that says so, where there is no Octave or no package netcdf of it.
-. "$(dirname "$0")/../cli/expect.sh"
+. "$(dirname "$0")/../app/cli/expect.sh"
 root=$(realpath "$(dirname "$0")/../..")
 octave=$(command -v octave-cli) || { echo "ok 1 - skipped: there is no octave-cli"; echo "1..1"; exit 0; }
 "$octave" -qf --eval 'pkg load netcdf' > /dev/null 2>&1 || { echo "ok 1 - skipped: Octave has no package netcdf"; echo "1..1"; exit 0; }

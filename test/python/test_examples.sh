@@ -1,7 +1,7 @@
 #!/bin/bash
 # test_examples.sh BUILD: the examples of python/examples and matlab-compat/examples run and give the numbers of their README, the same in both
 # languages; in short size each example in one of them, the program's criterion in both. What is not installed is skipped, with a line that says so.
-. "$(dirname "$0")/../cli/expect.sh"
+. "$(dirname "$0")/../app/cli/expect.sh"
 root=$(realpath "$(dirname "$0")/../..")
 export OMP_THREAD_LIMIT=1 OPENBLAS_NUM_THREADS=1 PERIGAL="$perigal" PYTHONPATH="$root/python" PYTHONDONTWRITEBYTECODE=1
 python=

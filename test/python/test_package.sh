@@ -1,7 +1,7 @@
 #!/bin/bash
 # test_package.sh BUILD: the Python package runs scenes and reads results; errors are of the right kind. Skipped, with a line that says so, where
 # numpy or netCDF4 is missing.
-. "$(dirname "$0")/../cli/expect.sh"
+. "$(dirname "$0")/../app/cli/expect.sh"
 root=$(realpath "$(dirname "$0")/../..")
 python=                                         # Debian's own packages belong to /usr/bin/python3, which need not be the first on PATH
 for p in python3 /usr/bin/python3; do "$p" -c 'import numpy, netCDF4' 2> /dev/null && { python=$p; break; }; done

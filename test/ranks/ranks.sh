@@ -1,6 +1,6 @@
 # ranks.sh BUILD, for test_*.sh of this folder to read first: perigal-mpi as $mpi, run on several ranks by `ranks N ...`. Where MPI or PETSc is
 # not installed the tests say that they are skipped.
-. "$(dirname "$0")/../cli/expect.sh"
+. "$(dirname "$0")/../app/cli/expect.sh"
 cd "$(dirname "$0")" || exit 1
 mpi=$(dirname "$perigal")/perigal-mpi
 if [ ! -x "$mpi" ] || ! command -v mpirun > /dev/null; then

@@ -1,7 +1,7 @@
 #!/bin/bash
 # test_check.sh BUILD: `perigal check SCENE --ranks N` says what N ranks would do, without starting any: the parts that they then hold, their
 # memory within a quarter, and refusals in the words of the run. With --accept as a second word it keeps the plans of plans/ as they are now.
-. "$(dirname "$0")/../cli/expect.sh"
+. "$(dirname "$0")/../app/cli/expect.sh"
 cd "$(dirname "$0")" || exit 1
 mpi=$(dirname "$perigal")/perigal-mpi accept=$2
 long() { [ "$PERIGAL_TEST_SIZE" = long ]; }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Bodies from meshes: points, volumes, sets and blocks of every kind of element, patches, units, faults. */
 #include "run.h"
-#include "mesh/grid.h"
+#include "geometry/mesh/grid.h"
 #include <unistd.h>
 
 static char folder[64], path[128];

@@ -3,7 +3,7 @@
  * the factor, with few iterations that do not grow with the size; rigid motions of the elements cost nothing;
  * no element spans a crack. */
 #include "run.h"
-#include "mesh/grid.h"
+#include "geometry/mesh/grid.h"
 #include <math.h>
 #include <unistd.h>
 

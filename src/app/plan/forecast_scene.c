@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Sizes of a run from the scene alone: method and solver as written, points and bonds counted on the lattice
+ * or sampled from a file. */
+#include "forecast.h"
+#include "perigal/linalg.h"
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const double pi = 3.14159265358979323846;
+static const double most_cells = 4e6;                  /* counted one by one */
+
+/* Is a text, which may be missing, this word? */
+static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
+
+/* Radius, in nodes, of the ball that holds as many nodes as one is coupled to. */
+static double radius_of (int dim, double coupled)
+{
+    return dim == 3 ? cbrt (coupled * 3 / (4 * pi)) : dim == 2 ? sqrt (coupled / pi) : coupled / 2;
+}
+
+/* Facets that loads and supports use, as far as the names of their sets tell: a side has its open faces,
+ * a set of the scene is taken for an average side. Supports need them by Nitsche's terms alone. */
+static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
+{
+    static const char *const sides[6] = { "left", "right", "bottom", "top", "back", "front" };
+    double used = 0, all = 0;
+    const char *how = pg_scene_text (scene, "method.essential");
+    const pg_approx_type *type = pg_approx_find (pg_scene_text (scene, "method.approximation"));
+    int nitsche = is (how, "nitsche")
+                  || (is (how, "auto") && !(type && type->interpolates));
+    for (int k = 0; k < 2 * dim; k++) all += t->open[k];
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+        const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
+        int prescribes = pg_scene_given (scene, "boundary[%zu].displacement", i)
+                         || pg_scene_given (scene, "boundary[%zu].velocity", i);
+        int pushes = pg_scene_given (scene, "boundary[%zu].traction", i)
+                     || pg_scene_given (scene, "boundary[%zu].pressure", i);
+        double open = all / (2 * dim);
+        if (!(pushes || (prescribes && nitsche))) continue;
+        for (int k = 0; k < 2 * dim; k++) if (is (set, sides[k])) open = t->open[k];
+        used += is (set, "all") ? all : open;
+    }
+    return fmin (used, all);
+}
+
+/* Largest speed of a pressure wave, m/s, by the materials themselves; 0 without densities. Moduli that are
+ * expressions of place count as none. */
+static double fastest_wave (const pg_scene *scene, int dim)
+{
+    const char *name;
+    pg_mode mode = dim == 3                                          ? PG_SOLID
+                   : dim == 1                                        ? PG_LINE
+                   : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN
+                                                                     : PG_PLANE_STRESS;
+    double top = 0;
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) {
+        pg_material m = { 0 };
+        if (pg_material_read_graded (&m, scene, name, mode, 1) == PG_OK)
+            top = fmax (top, pg_material_waves (&m).pressure);
+    }
+    return top;
+}
+
+/* Which linear solver is asked for; weight: beta (2 c dt)^2 of implicit dynamics, m^2, which says how
+ * much K weighs beside the mass. */
+static void read_solver (pg_forecast *f, const pg_scene *scene)
+{
+    const char *linear = pg_scene_text (scene, "solver.linear");
+    double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"),
+           dt = pg_scene_number (scene, "solver.dt");
+    f->automatic = !linear || is (linear, "auto");
+    f->dynamic = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
+    f->explicit_ = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT);
+    f->linear = f->automatic ? pg_linear_usual (1, 1) : pg_linear_find (linear);
+    if (f->linear && !f->linear->factors) f->linear = NULL;
+    if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
+    const char *stepping = pg_scene_text (scene, "solver.stepping");
+    f->elements = f->method->shape_functions && !pg_scene_bool (scene, "solver.plain")
+                  && !is (pg_scene_text (scene, "solver.preconditioner"), "jacobi");
+    f->events = f->breaks && !f->dynamic && !pg_scene_bool (scene, "solver.plain") && !is (stepping, "fixed");
+    const char *contact = pg_scene_text (scene, "contact.kind");
+    if (f->method->shape_functions && !f->explicit_ && contact && !is (contact, "none"))
+        f->pressed = is (contact, "friction") ? 2 : 1;
+    f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
+}
+
+/* Do points of a lattice share their rows (force/galerkin_share.c), as far as points and cracks allow? */
+static int shares_rows (const pg_forecast *f, const pg_scene *scene)
+{
+    if (!f->method->shape_functions || pg_scene_bool (scene, "solver.plain")) return 0;
+    return !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh")
+           && !(pg_scene_number (scene, "perturb.amount") > 0) && pg_scene_count (scene, "cracks") == 0;
+}
+
+/* What of the method changes counts or bytes. */
+static void read_method (pg_forecast *f, const pg_scene *scene)
+{
+    const char *criterion = pg_scene_text (scene, "failure.criterion");
+    const pg_criterion_type *type = criterion ? pg_criterion_find (criterion) : NULL;
+    const pg_integration_type *integration = pg_integration_of (scene, type && type->needs & PG_NEEDS_FACETS);
+    f->matrixless = f->method->long_range && f->method->long_range (scene);
+    f->rotations = f->method->rotations[f->dim];
+    f->by_list = !f->method->shape_functions
+                 && (is (pg_scene_text (scene, "method.evaluation"), "list")
+                     || is (pg_scene_text (scene, "method.surface_correction"), "volume")
+                     || pg_scene_number (scene, "perturb.amount") > 0
+                     || pg_scene_count (scene, "blocks") > 1);
+    f->nodal = !f->method->shape_functions || (integration && integration->at_nodes);
+    /* until bonds are counted */
+    f->summed = f->method->shape_functions && integration && integration->consistent;
+    f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
+    f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
+    f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
+    f->irregular = pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")
+                   || pg_scene_number (scene, "perturb.amount") > 0;
+    f->shared = !(f->summed > 0) && !f->breaks && shares_rows (f, scene);
+    read_solver (f, scene);
+}
+
+/* Side of a cube of a cell's volume, m. */
+static double lattice_step (const pg_lattice *l)
+{
+    double cell = 1;
+    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
+    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
+}
+
+/* Consistent integration: a cell's points see what any of them, or of its faces, sees: about half a
+ * spacing further. Faces have as many points again as there are in the cell. reach: horizon in spacings. */
+static void widen (pg_forecast *f, double reach)
+{
+    double wider = pow ((reach + 0.5) / reach, f->dim);
+    if (!(f->summed > 0)) return;
+    f->summed = f->bonds[PG_POINTS] * (wider + 1);
+    f->pairs *= pow ((reach + 0.25) / reach, f->dim);
+}
+
+/* Cut cells, of which half have their centre outside, have more points than whole ones: 1.23 and 1.6 times
+ * as many, and where they are integrated consistently 2.6 and 5.1 times (2.4 to 3.5 and 3.3 to 5.6, measured
+ * on disks, balls and cylinders: rather too many than too few); points near the surface see three quarters of
+ * what others see. */
+static void add_cut (pg_forecast *f, const pg_tally *t, double finer, int consistent)
+{
+    static const double points[2][3] = { { 1, 1.23, 1.6 }, { 1, 2.6, 5.1 } };
+    double crossed = t->crossed * pow (finer, f->dim - 1), per = points[consistent != 0][f->dim - 1];
+    double more = t->cells > 0 ? crossed * (per - 0.5) * t->evaluation / t->cells : 0,
+           seen = consistent && f->dim == 3 ? 0.85 : 0.75;
+    if (t->evaluation > 0) f->bonds[PG_POINTS] += seen * more * t->point_bonds / t->evaluation;
+    f->cells += 0.5 * crossed, f->evaluation += more;
+}
+
+/* Counts of the lattice at hand, which has steps `finer` times as wide as the scene's: bodies grow with
+ * its power dim, facets with dim - 1. edge: nodes along a box that is as full as the body's is, for
+ * nested dissection. */
+static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t, const pg_counting *how,
+                        const pg_lattice *l, double finer)
+{
+    double more = pow (finer, f->dim), facets = used_facets (scene, t, f->dim) * pow (finer, f->dim - 1),
+           per = 1, sites = 1;
+    for (int k = 0; k + 1 < f->dim; k++)
+        per *= t->crossed > 0 ? fmax (how->order, how->approx->order + 1) : how->approx->order + 1;
+    f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more,
+    f->pairs = t->pairs * more;
+    f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
+    int consistent = f->method->shape_functions && t->crossed > 0
+                     && pg_integration_of (scene, 1)->consistent;
+    add_cut (f, t, finer, consistent);
+    if (consistent) f->summed = 1, f->shared = 0;
+    f->facets = !f->method->shape_functions ? 0 : facets * per;
+    widen (f, how->approx->horizon / lattice_step (l));
+    f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
+    f->order = how->approx->order, f->interpolates = how->approx->type && how->approx->type->interpolates;
+    f->behind = how->centred;
+    f->scattered = f->nodal && pg_scene_number (scene, "perturb.amount") > 0;
+    f->width = 0.93 * radius_of (f->dim, t->coupled);
+    f->counted = !t->sampled && finer == 1 && t->crossed == 0;
+    for (int k = 0; k < 3; k++)
+        f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
+    /* a body that fills its box by half is a smaller box */
+    double fill = pow (t->points / sites, 1.0 / f->dim);
+    for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
+}
+
+/* The bonds of one point of forces between points, by the rule of the scene. Points that are perturbed
+ * have partial volumes by distance, as they have no cells. */
+static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene,
+                             const pg_lattice *l, const pg_approx *a)
+{
+    pg_mode mode = l->dim == 1                                     ? PG_LINE
+                   : l->dim == 3                                   ? PG_SOLID
+                   : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN
+                                                                   : PG_PLANE_STRESS;
+    pg_sum_rule rule;
+    method->rule (&rule, scene, mode, a, lattice_step (l),
+                    !(pg_scene_number (scene, "perturb.amount") > 0));
+    return pg_stencil_build (out, &rule, l->dim, l->step);
+}
+
+/* Counts on the scene's lattice, or on one with 2, 4 ... times its steps where that has more than
+ * most_cells cells; the horizon grows alike, so that points see as many others. */
+static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    pg_lattice l = { 0 };
+    pg_approx a;
+    pg_tally t;
+    pg_stencil bonds = { 0 };
+    double spacing = pg_scene_number (scene, "spacing"), cells = 1, offset[3] = { 0 }, finer = 1;
+    int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
+    if (!(spacing > 0)) PG_FAIL (PG_E_SCENE, "there is no spacing");
+    for (int k = 0; k < body->dim; k++) cells *= (body->high[k] - body->low[k]) / spacing;
+    if (!(cells < 1e15)) PG_FAIL (PG_E_SCENE, "spacing %g m gives %.3g lattice cells", spacing, cells);
+    while (cells / pow (finer, body->dim) > most_cells) finer *= 2;
+    PG_TRY (pg_lattice_fit (&l, body, spacing * finer, shifted ? offset : NULL));
+    f->spacing = lattice_step (&l) / finer;
+    PG_TRY (pg_method_approx (&a, f->method, scene, f->spacing));
+    f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice */
+    for (int k = 0; k < 3; k++) f->step[k] = l.step[k] / finer;
+    int order = pg_scene_given (scene, "method.gauss_points")
+                    ? (int) pg_scene_integer (scene, "method.gauss_points")
+                    : a.order + 1;
+    if (!f->method->shape_functions) PG_TRY (make_bonds (&bonds, f->method, scene, &l, &a));
+    pg_counting how = { &l,
+                        &a,
+                        is (pg_scene_text (scene, "lattice"), "cells"),
+                        f->nodal,
+                        order,
+                        is (pg_scene_text (scene, "cells"), "cut") ? body : NULL,
+                        !f->method->shape_functions ? &bonds : NULL };
+    PG_TRY (pg_tally_count (&t, &how));
+    if (!(t.points > 0)) PG_FAIL (PG_E_SCENE, "no point lies in the body");
+    take_tally (f, scene, &t, &how, &l, finer);
+done:
+    pg_stencil_clear (&bonds);
+    pg_lattice_clear (&l);
+    return status;
+}
+
+/* Elements, their evaluation points, and outer faces with theirs; bonds of these see as many nodes as a
+ * node does on average. Each entry of `boundary` is taken for one of 2 dim sides. */
+static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg_mesh_body *part,
+                                 const pg_approx *a)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &part->mesh;
+    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], count[PG_ELEMENTS],
+        facets = 0, all = 0, each = f->bonds[PG_NODES] / f->points;
+    int usual = a->order + 1 + 2 * pg_mesh_body_halved (part), order = usual;
+    if (pg_scene_given (scene, "method.gauss_points"))
+        order = (int) pg_scene_integer (scene, "method.gauss_points");
+    size_t n = 0;
+    int *element = NULL, *side = NULL, node[9];
+    for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
+    f->cells = (double) m->n, f->evaluation = 0;
+    /* pg_mesh, pg_mesh_body: nodes, elements and their nodes */
+    f->mesh = 32 * (double) m->nnode + 25 * (double) m->n + 4 * (double) m->start[m->n];
+    for (size_t e = 0; e < m->n && !f->nodal; e++) f->evaluation += count[m->kind[e]];
+    f->bonds[PG_POINTS] = f->evaluation * each;
+    PG_TRY (pg_mesh_surface (m, &n, &element, &side));
+    for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
+    for (size_t k = 0; k < n; k++)
+        all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
+    /* a side each */
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
+    f->facets = !f->method->shape_functions ? 0 : fmin (facets, all),
+    f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+done:
+    pg_free (element), pg_free (side);
+    return status;
+}
+
+/* Bytes of a file that the scene names; 0: there is none. */
+static double bytes_of_file (const pg_scene *scene, const char *key)
+{
+    char *path = NULL;
+    struct stat about;
+    int there = pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)) == PG_OK
+                && stat (path, &about) == 0;
+    pg_free (path);
+    return there ? (double) about.st_size : 0;
+}
+
+/* Points of a file or a mesh: their families are searched for as they are, on a sample of about 20 000
+ * centres; the nodes that one shares a point with are about those in a ball of 1.6 horizons. */
+static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    pg_lattice l = { 0 };
+    pg_cloud c = { 0 };
+    pg_family near = { 0 }, far = { 0 };
+    pg_mesh_body part = { 0 };
+    pg_approx a;
+    double *centre = NULL;
+    if (pg_scene_given (scene, "mesh")) {
+        PG_TRY (pg_mesh_body_read (&part, scene));
+        PG_TRY (pg_mesh_body_cloud (&c, &part, scene));
+    } else {
+        PG_TRY (pg_cloud_build (&c, &l, body, scene));
+        /* its text and its points, which grow up to twice their length, and the list by which those that are
+         * there twice are found, with a copy to sort it (geometry/cloud/points_file.c): measured on 8 ranks
+         * */
+        f->reading = 2 * bytes_of_file (scene, "points") + (132 + 16 * (double) c.dim) * (double) c.n;
+    }
+    PG_TRY (pg_method_approx (&a, f->method, scene, c.h));
+    size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
+    PG_ALLOC (centre, (c.n / stride + 1) * dim);
+    for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
+    /* volumes fall over one spacing */
+    if (!f->method->shape_functions && !is (pg_scene_text (scene, "method.partial_volume"), "none"))
+        a.horizon += 0.5 * c.h;
+    PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
+    PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
+    f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
+    if (!part.mesh.n) f->nodal = 1;
+    f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
+    double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
+    if (!f->method->shape_functions)
+        coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
+    f->pairs = 0.5 * f->points * (coupled + 1);
+    f->order = a.order, f->interpolates = a.type && a.type->interpolates;
+    f->width = 0.93 * radius_of (f->dim, coupled);
+    for (int k = 0; k < 3; k++)
+        f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];
+    for (int k = 0; k < f->dim; k++) f->edge[k] *= pow (f->points / side, 1.0 / f->dim);
+    f->counted = stride == 1;
+    if (part.mesh.n) PG_TRY (count_elements (f, scene, &part, &a));
+done:
+    pg_mesh_body_clear (&part);
+    pg_free (centre);
+    pg_family_clear (&near), pg_family_clear (&far);
+    pg_cloud_clear (&c), pg_lattice_clear (&l);
+    return status;
+}
+
+/* Faults of the scene that come to light on the way are added to it. */
+pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene, const pg_method *const *methods)
+{
+    pg_status status = PG_OK;
+    pg_body body = { 0 };
+    memset (out, 0, sizeof *out);
+    out->dim = (int) pg_scene_integer (scene, "dimension");
+    out->method = pg_method_of (methods, scene);
+    if (!out->method) PG_FAIL (PG_E_USAGE, "method.force: unknown");
+    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_body_read (&body, scene));
+    PG_TRY (pg_scene_verdict (scene));
+    read_method (out, scene);
+    if (pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh"))
+        PG_TRY (count_file (out, scene, &body));
+    else PG_TRY (count_lattice (out, scene, &body));
+    PG_TRY (pg_scene_verdict (scene));
+    /* bonds that something parts are counted here */
+    if (body.n && pg_body_parts (&body, &(pg_mesh_body) { 0 }) > 0) out->counted = 0;
+    forecast_factor (out);
+    pg_forecast_sum (out);
+done:
+    pg_body_clear (&body);
+    return status;
+}
