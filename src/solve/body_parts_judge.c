@@ -40,7 +40,7 @@ static void clear (along_motions *w)
 static pg_status find_loads (pg_system *s, double t, double *force)
 {
     pg_status status = PG_OK;
-    const double *contact = contact_forces (s);
+    const double *contact = s->balance.pressed;
     double *zero = NULL, reference;
     PG_ALLOC (zero, s->ndof);
     if (s->force->loads) PG_TRY (s->force->loads (s->self, t, force));

@@ -2,23 +2,13 @@
  * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit,
  * update what they touched, solve again, until no bond is over its limit and the residual is small. Shared by
  * static and newmark. */
-#include "facet_growth.h"
+#include "solve.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes the linear system behind the loop. The arrays of a look at all bonds come with break_loop_ready,
- * so that a run in which nothing can break never has them. */
-pg_status break_loop_create (break_loop *b)
-{
-    pg_status status = PG_OK;
-    PG_TRY (system_create (&b->system));
-    PG_TRY (facet_create (b));
-done:
-    return status;
-}
-
-/* Room for the utilisation of every bond, the load factor at which each reaches its limit, and the kind of
+/* Made for the first look at all bonds, so that a run in which nothing can break never has it: room for the
+ * utilisation of every bond, the load factor at which each reaches its limit, and the kind of
  * failure: 17 bytes a bond. */
 pg_status break_loop_ready (break_loop *b)
 {
@@ -34,7 +24,7 @@ done:
 
 void break_loop_free (break_loop *b)
 {
-    facet_free (b);
+    if (b->grower) b->grower->free (b);
     system_free (&b->system);
     pg_free (b->utilisation), pg_free (b->factor), pg_free (b->kind);
     pg_free (b->changes.bond), pg_free (b->over.bond), pg_free (b->broken);
@@ -144,12 +134,14 @@ done:
 
 /* One round of breaking. The bonds that die are listed twice: in `changes` for the force, which updates
  * what they touched, and in `broken` for the results. */
-pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
-                           double t)
+pg_status break_loop_kill (break_loop *b, pg_state *state, const pg_changes *among, const double *measure,
+                           double cut, double scale, double t)
 {
     pg_status status = PG_OK;
+    size_t n = among ? among->n : state->nbond;
     b->changes.n = 0;
-    for (size_t i = 0; i < state->nbond; i++) {
+    for (size_t k = 0; k < n; k++) {
+        size_t i = among ? among->bond[k] : k;
         if (!(measure[i] >= cut) || !state->alive[i] || !break_loop_owns (b, i)) continue;
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
         PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
@@ -182,25 +174,6 @@ static double most_of (const break_loop *b, const double *a, double sign, double
 double break_loop_largest (const break_loop *b, const double *a) { return most_of (b, a, 1, 0); }
 double break_loop_smallest (const break_loop *b, const double *a) { return -most_of (b, a, -1, -INFINITY); }
 
-/* One round of breaking among the bonds listed. */
-static pg_status kill_listed (break_loop *b, pg_state *state, double cut, double t)
-{
-    pg_status status = PG_OK;
-    b->changes.n = 0;
-    for (size_t k = 0; k < b->over.n; k++) {
-        size_t i = b->over.bond[k];
-        if (!(b->utilisation[i] >= cut)) continue;
-        PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
-        PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i], t));
-        state->alive[i] = 0;
-        b->changes.bond[b->changes.n++] = i;
-    }
-    state->broken += (long) b->changes.n;
-    PG_TRY (share_changes (b, state));
-done:
-    return status;
-}
-
 /* Counts bonds that live although they are over their limit, a tie counting as at the limit: 0 in every
  * state that the loop accepts. */
 long break_loop_over (const break_loop *b, const pg_state *state, double scale, double *top)
@@ -218,7 +191,8 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     return over;
 }
 
-pg_status break_loop_look (break_loop *b, const pg_state *state, const double *d, double *top)
+/* The largest utilisation of all bonds; above 1, `over` lists those that may break now. */
+static pg_status look (break_loop *b, const pg_state *state, const double *d, double *top)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
@@ -252,25 +226,8 @@ static pg_status break_worst (break_loop *b, pg_state *state, double t, const do
                  "solver.max_iterations "
                  "or take smaller steps",
                  step->iterations, b->nbroken, top);
-    PG_TRY (kill_listed (b, state, cut, t));
+    PG_TRY (break_loop_kill (b, state, &b->over, b->utilisation, cut, 1, t));
     PG_TRY (system_break (&b->system, state, &b->changes, d, dyn));
-done:
-    return status;
-}
-
-/* One round of growth by facets. In motion what is cut is held, so that there is no second round. */
-static pg_status grow (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
-                       pg_step *step, int *again)
-{
-    pg_status status = PG_OK;
-    int over = 0;
-    *again = 0;
-    if (!dyn) {
-        PG_TRY (facet_round (b, state, t, d, step, again));
-        goto done;
-    }
-    if (facet_due (b, dyn->dt)) PG_TRY (facet_move (b, state, t, d, &step->utilisation, &over));
-    if (over) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
 done:
     return status;
 }
@@ -298,26 +255,26 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
     pg_status status = PG_OK;
     pg_system *s = &b->system;
     if (b->round == 0) b->nbroken = 0;
-    if (b->growth && dyn && b->round == 0) facet_forward (b, dyn->dt);
+    if (b->grower && dyn && b->round == 0) b->grower->forward (b, dyn->dt);
     step->utilisation = 0;
     for (step->iterations = b->round;; b->round = ++step->iterations) {
         PG_TRY (show_caller (b, state, step));
         s->choice.begins = step->iterations == 0;
         double top;
-        int rough = 0, judges = !b->growth && break_loop_judges (b);
+        int rough = 0, judges = !b->grower && break_loop_judges (b);
         if (judges && step->iterations > (s->choice.mode != SYSTEM_DIAGONAL))
             PG_TRY (break_loop_rough (b, state, t, d, dyn, &top, &rough));
         if (!rough) PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
-        if (b->growth) {
+        if (b->grower) {
             int again;
-            PG_TRY (grow (b, state, t, d, dyn, step, &again));
+            PG_TRY (b->grower->round (b, state, t, d, dyn, step, &again));
             if (!again) break;
             continue;
         }
         if (!judges) break;
-        if (!rough) PG_TRY (break_loop_look (b, state, d, &top));
+        if (!rough) PG_TRY (look (b, state, d, &top));
         step->utilisation = top;
         if (!(top > 1)) break;
         PG_TRY (break_worst (b, state, t, d, dyn, step, top));

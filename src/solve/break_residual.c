@@ -45,9 +45,7 @@ done:
 double system_take_residual (pg_system *s)
 {
     system_balance *b = &s->balance;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
-    else memcpy (b->reduced, b->residual, s->ndof * sizeof *b->reduced);
+    system_reduce (s, b->residual, b->reduced);
     b->unbalanced = system_norm (s, b->reduced, s->nred);
     b->unmeasured++;
     return b->scale > 0 ? b->unbalanced / b->scale : 0;

@@ -4,7 +4,7 @@
  * kept: they are functions of the bonds and the cracks, made again in the same order. The factor of an
  * earlier K is one of them: it is made again from the bonds that lived then, and the cracks of then. */
 #include "contact.h"
-#include "event_solver.h"
+#include "inverse.h"
 #include "facet_growth.h"
 #include <string.h>
 
@@ -281,9 +281,9 @@ static pg_status keep_following (pg_system *s, const pg_keeper *k)
     long count = u->following && s->choice.mode == SYSTEM_KEPT_FACTOR;
     PG_TRY (k->counts (k->context, "system.following", 1, &count));
     PG_KEEP_BOUND (k, "what follows a factor", count, 0, s->choice.mode == SYSTEM_KEPT_FACTOR ? 1 : 0);
-    if (!count && k->reading) event_solver_free (&u->following);
-    if (count && !u->following) PG_TRY (event_solver_create (&u->following, s, 0, NULL));
-    if (count && u->following) PG_TRY (event_solver_keep (u->following, k));
+    if (!count && k->reading) inverse_free (&u->following);
+    if (count && !u->following) PG_TRY (inverse_create (&u->following, s, INVERSE_HALVES));
+    if (count && u->following) PG_TRY (inverse_keep (u->following, k));
 done:
     return status;
 }
@@ -436,7 +436,7 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     sys->direct.stale = stale, sys->iterative.guess.fresh = fresh;
     memcpy (counts.seconds, s->report.seconds, sizeof counts.seconds);
     s->report = counts;
-    if (sys->updates.following) PG_TRY (event_solver_restore (sys->updates.following));
+    if (sys->updates.following) PG_TRY (inverse_restore (sys->updates.following));
 done:
     return status;
 }

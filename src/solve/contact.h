@@ -113,16 +113,19 @@ static inline int contact_of_faces (const struct system_contact *c)
     return c && c->setting.kind != PG_CONTACT_NONE && c->setting.search == PG_CONTACT_FACES;
 }
 
+/* Do forces of contact stand in the equations? */
+static inline void contact_set_active (pg_system *s, int active)
+{
+    s->contact->active = active, s->balance.pressed = active ? s->contact->nodal : NULL;
+}
+
 /* ---- contact_solve.c ----------------------------------------------------------------------------------- */
-pg_status contact_create  (pg_system *s);              /* where the options ask for it, else nothing */
-void      contact_free    (pg_system *s);
+pg_status contact_create  (pg_system *s);  /* where the options ask for it: a client of the system */
 /* After the force was refreshed: pieces and rows of the cracks of the state. changes: what it was refreshed
  * by; NULL: all. */
 pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 /* Before the first step, pieces being at hand: what equilibria with contact need and do not have. */
 pg_status contact_check   (const pg_system *s);
-/* As system_solve. */
-pg_status contact_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* Gaps at the displacement d, without the compression of layers by the present contact forces. */
 void contact_gaps (struct system_contact *c, const double *d);
 /* What the report says of the pieces. */
@@ -134,8 +137,6 @@ void contact_note_overlap (pg_system *s, const pg_state *state);
 double contact_energy (const pg_system *s);
 /* How much stiffer the layers between closed faces may be, now and later, than the bonds that they were. */
 double contact_stiffer (const pg_system *s);
-/* Forces of contact on the nodes as they stand in the equations, N (ndof); NULL: none. */
-const double *contact_forces (const pg_system *s);
 /* In motion, pairs that were apart at displacement d and bear pressure now: their normal forces on the nodes,
  * N (ndof), and the work that they have done on the gaps that there were, J. */
 pg_status contact_impacts (const pg_system *s, const double *d, double *nodal, double *work);
@@ -209,9 +210,6 @@ int       platens_touch   (const pg_problem *problem);
 /* ---- contact_loose.c ----------------------------------------------------------------------------------- */
 pg_status loose_refresh (contact_loose *l, const pg_system *s);
 void      loose_free    (contact_loose *l);
-/* Springs on K's diagonal. */
-void      loose_matrix  (const pg_system *s, const pg_sparse *K, double *value);
-void      loose_forces  (const pg_system *s, const double *d, double *residual);    /* residual -= theirs */
 double    loose_pull    (const pg_system *s, const double *d);         /* the largest of them, N */
 void      loose_move    (contact_loose *l, size_t ndof, size_t mode, double by, double *d);
 
@@ -234,10 +232,8 @@ pg_status contact_route_ahead (pg_system *s, double *base, double *unit, double 
  * the last accepted ones all the way. contact_route_behind takes up the path behind a change of status. */
 pg_status contact_route_back   (pg_system *s, double *base, double *unit, double *residual);
 pg_status contact_route_behind (pg_system *s);
-/* t at which the stretch ends; 1: pieces change their status there; 1: at its beginning forces and gaps have
- * leapt. */
+/* t at which the stretch ends; 1: at its beginning forces and gaps have leapt. */
 double contact_route_end     (const pg_system *s);
-int    contact_route_changes (const pg_system *s);
 int    contact_route_leapt   (const pg_system *s);
 pg_status contact_route_go   (pg_system *s, double t);         /* to t in the stretch */
 long      contact_route_due  (const pg_system *s);             /* pieces that change where it stands */

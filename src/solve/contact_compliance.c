@@ -13,36 +13,23 @@ static const double COLUMN = 1e-10, COLUMN_SPACE = 1e-7, REFINED = 1e-12;
 /* Column j of G' in the unknowns that are solved for. */
 static void load_column (const pg_system *s, size_t j, double *full, double *reduced)
 {
-    const pg_sparse *G = &s->contact->G, *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *G = &s->contact->G;
     memset (full, 0, s->ndof * sizeof *full);
     for (long q = G->start[j]; q < G->start[j + 1]; q++) full[G->row[q]] = G->value[q];
-    if (T) pg_sparse_multiply_transposed (T, full, reduced);
-    else memcpy (reduced, full, s->ndof * sizeof *full);
-}
-
-/* Is the factor at hand that of this K? */
-static int has_factor (const pg_system *s)
-{
-    return s->direct.factor && !s->direct.stale && s->direct.linear->factors
-           && (s->choice.mode == SYSTEM_FACTOR || s->choice.mode == SYSTEM_KEPT_FACTOR
-               || s->choice.mode == SYSTEM_UNDECIDED);
+    system_reduce (s, full, reduced);
 }
 
 /* What K z leaves of the columns of G', over the larger of both: springs of weak unknowns in the factor show
  * there. rest: nred x n. NAN: a column is not finite. */
 static double rest_of_columns (pg_system *s, const double *rhs, const double *solved, size_t n, double *rest)
 {
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double worst = 0;
     int finite = 1;
     for (size_t j = 0; j < n; j++) {
         const double *z = solved + j * s->nred, *b = rhs + j * s->nred;
         double *r = rest + j * s->nred, left = 0, size = 0;
-        if (T) {
-            pg_sparse_multiply (T, z, s->balance.full);
-            system_multiply (s, s->balance.full, s->balance.scratch);
-            pg_sparse_multiply_transposed (T, s->balance.scratch, r);
-        } else system_multiply (s, z, r);
+        system_multiply (s, system_step (s, z), s->balance.scratch);
+        system_reduce (s, s->balance.scratch, r);
         for (size_t k = 0; k < s->nred; k++) {
             r[k] = b[k] - r[k];
             left = fmax (left, fabs (r[k])), size = fmax (size, fabs (b[k]));
@@ -59,7 +46,7 @@ static pg_status refine_columns (pg_system *s, const double *rhs, double *solved
 {
     pg_status status = PG_OK;
     double *rest = NULL, *step = NULL, before = INFINITY;
-    if (!has_factor (s) || !s->contact->route.open[0]) return PG_OK;
+    if (!system_has_factor (s) || !s->contact->route.open[0]) return PG_OK;
     PG_ALLOC (rest, s->nred * n);
     PG_ALLOC (step, s->nred * n);
     for (int round = 0; round < MOST_ROUNDS; round++) {
@@ -106,7 +93,6 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     system_factor *f = &s->direct;
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     size_t n = c->pieces.dim * c->pieces.n;
     double *rhs = NULL, *solved = NULL, *kept = NULL, t0 = pg_seconds ();
     if (!c->Z) PG_ALLOC (c->Z, s->ndof * n);
@@ -123,7 +109,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     /* not counted among the solves, of which every so many are measured: a resumed run has these again */
     long solves = s->report->solves;
     size_t first = 0;
-    for (; first < n && !has_factor (s); first++) {
+    for (; first < n && !system_has_factor (s); first++) {
         if (!needs_column (c, first)) continue;
         /* iterations over all unknowns begin at the full residual */
         load_column (s, first, b->residual, b->reduced);
@@ -143,8 +129,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     if (c->again == f->revision + 1) s->report->contact_columns = columns;
     c->again = 0;
     for (size_t j = 0; j < n; j++)
-        if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
-        else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);
+        system_expand (s, solved + j * s->nred, c->Z + j * s->ndof);
 done:
     if (kept) memcpy (b->residual, kept, s->ndof * sizeof *kept);
     pg_free (rhs), pg_free (solved), pg_free (kept);

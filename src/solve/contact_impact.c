@@ -44,7 +44,7 @@ void contact_rebound (const pg_system *s, double times)
 
 void contact_accelerate (const pg_system *s, double *a)
 {
-    const double *force = contact_forces (s);
+    const double *force = s->balance.pressed;
     for (size_t i = 0; force && i < s->ndof; i++) a[i] += force[i] / (s->contact->weight * s->mass[i]);
 }
 

@@ -87,19 +87,6 @@ void loose_free (contact_loose *l)
 }
 
 /* ---- springs ------------------------------------------------------------------------------------------- */
-void loose_matrix (const pg_system *s, const pg_sparse *K, double *value)
-{
-    const contact_loose *l = s->contact ? &s->contact->loose : NULL;
-    for (size_t j = 0; l && j < l->n; j++) value[K->start[l->prop[j] + 1] - 1] += s->direct.mean_diagonal;
-}
-
-void loose_forces (const pg_system *s, const double *d, double *residual)
-{
-    const contact_loose *l = s->contact ? &s->contact->loose : NULL;
-    for (size_t j = 0; l && j < l->n; j++)
-        residual[l->prop[j]] -= s->direct.mean_diagonal * (d[l->prop[j]] - l->target[j]);
-}
-
 double loose_pull (const pg_system *s, const double *d)
 {
     const contact_loose *l = &s->contact->loose;

@@ -274,7 +274,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (k->counts (k->context, "contact.counts", 10, count));
     PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
-    c->active = (int) count[1], r->contact_passes = count[2], r->contact_sweeps = count[3];
+    contact_set_active (s, (int) count[1]), r->contact_passes = count[2], r->contact_sweeps = count[3];
     c->touched = count[4] != 0;
     if (k->reading) c->again = count[5] ? s->direct.revision + 1 : 0;
     PG_TRY (contact_route_keep (s, k));

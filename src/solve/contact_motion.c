@@ -32,13 +32,13 @@ void contact_push (pg_system *s, const double *d, double *residual, int follow)
     memset (c->force, 0, dim * c->ncrack * sizeof *c->force);
     contact_gaps (c, d);
     if (c->active) memset (c->nodal, 0, s->ndof * sizeof *c->nodal);
-    c->active = 0;
+    int active = 0;
     for (size_t k = 0; k < c->ncrack; k++) {
         double *f = c->force + dim * k, *g = c->gap + dim * k, *before = c->before + (dim - 1) * k;
         c->status[k] = PG_CONTACT_OPEN;
         if (g[0] < 0) {
             f[0] = -g[0] / c->soft[dim * k];
-            c->status[k] = shear (c, k, g + 1, before, f), c->active = 1;
+            c->status[k] = shear (c, k, g + 1, before, f), active = 1;
             /* what the layer gives way by is no gap and no slip */
             g[0] = 0;
             for (size_t a = 1; a < dim; a++) g[a] += c->soft[dim * k + a] * f[a];
@@ -48,6 +48,7 @@ void contact_push (pg_system *s, const double *d, double *residual, int follow)
             for (long q = c->G.start[dim * k + a]; q < c->G.start[dim * k + a + 1]; q++)
                 c->nodal[c->G.row[q]] += c->G.value[q] * f[a], residual[c->G.row[q]] += c->G.value[q] * f[a];
     }
+    contact_set_active (s, active);
     if (follow) contact_book (s, 1), contact_accept (s);
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
 }

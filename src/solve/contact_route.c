@@ -73,7 +73,7 @@ static void count_work (pg_system *s, const pg_contact_track *before, double t0)
 static void show_forces (pg_system *s)
 {
     struct system_contact *c = s->contact;
-    c->active = c->route.touches;
+    contact_set_active (s, c->route.touches);
     if (c->active) pg_sparse_multiply (&c->G, c->force, c->nodal);
     contact_count (s);
     c->now.at = c->route.from + c->route.track.s;
@@ -144,7 +144,8 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
     PG_TRY (make_room (s));
     /* the end of a stage that takes all loads off bears nothing, and comes first */
     s->balance.borne = fmax (s->balance.borne, r->reference);
-    *residual = r->reference = 0, r->from = from, c->active = 0, r->touches = 0;
+    *residual = r->reference = 0, r->from = from, r->touches = 0;
+    contact_set_active (s, 0);
     PG_TRY (contact_factor (s));
     for (int i = 1; i >= 0; i--) {
         double one, *row = i ? r->rate : r->gap;
@@ -196,7 +197,7 @@ static pg_status mend (pg_system *s, int end, double *d, double *change, double 
     displacement_of (s, end, force, d);
     memcpy (before, d, s->ndof * sizeof *d);
     pg_sparse_multiply (&c->G, force, c->nodal);
-    c->active = 1;
+    contact_set_active (s, 1);
     PG_TRY (balance (s, r->from + end, d, residual));
     pg_sparse_multiply_transposed (&c->G, d, gap);
     for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) gap[i] += c->soft[i] * force[i];
@@ -309,7 +310,6 @@ double contact_route_end (const pg_system *s)
     return r->from + r->track.end;
 }
 
-int contact_route_changes (const pg_system *s) { return s->contact->route.track.changes; }
 int contact_route_leapt (const pg_system *s) { return s->contact->route.track.leapt; }
 
 long contact_route_due (const pg_system *s)

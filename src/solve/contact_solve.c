@@ -42,27 +42,6 @@ static void doubt_broken (const pg_system *s)
                         steps ? ": contact.search: short_range keeps all apart" : "");
 }
 
-pg_status contact_create (pg_system *s)
-{
-    pg_status status = PG_OK;
-    const pg_solver_options *o = s->options;
-    const struct system_contact asked = { .setting = o->contact };
-    int faces = contact_of_faces (&asked),
-        platens = s->problem->nplaten && (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
-    if (!faces && !platens) return PG_OK;
-    PG_ALLOC (s->contact, 1);
-    s->contact->setting = o->contact;
-    /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
-    /* loads with a constant part: contact_route.c */
-    s->contact->history = !o->event, s->contact->weight = 1;
-    PG_ALLOC (s->contact->nodal, s->ndof);
-    s->contact->pieces.dim = (size_t) s->problem->dim;
-    if (platens) PG_TRY (platens_create (s));
-    if (faces) doubt_broken (s);
-done:
-    return status;
-}
-
 static void clear_pairs (struct system_contact *c)
 {
     contact_route_clear (c);
@@ -83,7 +62,7 @@ static void clear (struct system_contact *c)
     clear_pairs (c);
 }
 
-void contact_free (pg_system *s)
+static void free_contact (pg_system *s)
 {
     struct system_contact *c = s->contact;
     if (!c) return;
@@ -92,7 +71,7 @@ void contact_free (pg_system *s)
     contact_route_free (c);
     pg_free (c->nodal), pg_free (c->now.value), pg_free (c->start.value), pg_free (c->shown);
     pg_free (c);
-    s->contact = NULL;
+    s->contact = NULL, s->client = NULL, s->balance.pressed = NULL, s->direct.props.n = 0;
 }
 
 /* Arrays of the pairs at hand. */
@@ -118,6 +97,7 @@ static pg_status make_pairs (pg_system *s)
                                           : c->setting.coefficient;
         c->cohesion[k] = piece->platen ? 0 : c->setting.cohesion * piece->area;
     }
+    s->choice.columns = contact_columns (s);
     PG_TRY (contact_remember (c));
     for (size_t k = 0; k < c->ncrack; k++)             /* crumbled faces have no slip */
         if (c->G.start[dim * k] == c->G.start[dim * (k + 1)])
@@ -179,12 +159,6 @@ done:
     return status;
 }
 
-/* A factor of K itself, which elimination of prescribed values has not. */
-static int has_factor (const pg_system *s)
-{
-    return system_has_matrix (s) && s->direct.linear->factors;
-}
-
 pg_status contact_check (const pg_system *s)
 {
     pg_status status = PG_OK;
@@ -197,15 +171,15 @@ pg_status contact_check (const pg_system *s)
                                "makes no matrix: prescribe a displacement of each part or hold it by "
                                "springs, or use another force",
                                s->problem->method->name));
-    if (c->loose.n && !has_factor (s))
+    if (c->loose.n && !system_can_factor (s))
         PG_TRY (options_fault (s->options, "solver.linear",
                                "parts of the body that contact alone holds need a factor of K: use auto"));
     if (!contact_of_faces (c) || !options_begin_cracks (s->problem)) goto done;
-    if (!has_factor (s))
+    if (!system_can_factor (s))
         PG_TRY (options_fault (s->options, "solver.linear",
                                "with contact.kind new cracks are tried by a factor of K, which %s has not: "
                                "use auto, or leave the strengths out", s->direct.linear->name));
-    if (s->force->basis && s->force->basis (s->self))
+    if (system_basis (s))
         PG_TRY (options_fault (s->options, "method.essential",
                                "with contact.kind new cracks are tried by a factor of K itself, which "
                                "transformation has not: use nitsche or penalty, or leave the strengths out"));
@@ -234,17 +208,14 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     /* in motion their mass holds them */
     if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
         PG_TRY (options_blame (loose_refresh (&c->loose, s), s->options, "boundary"));
+    s->direct.props.n = c->loose.n, s->direct.props.unknown = c->loose.prop;
+    s->direct.props.target = c->loose.target;
     s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;
 }
 
 /* ---- equilibria ---------------------------------------------------------------------------------------- */
-const double *contact_forces (const pg_system *s)
-{
-    return s->contact && s->contact->active ? s->contact->nodal : NULL;
-}
-
 static int any_overlap (const struct system_contact *c)
 {
     for (size_t k = 0; k < c->pieces.n; k++) if (c->gap[c->pieces.dim * k] < 0) return 1;
@@ -300,7 +271,7 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     }
     *change = size > 0 ? *change / size : 0;
     pg_sparse_multiply (&c->G, c->force, c->nodal);
-    c->active = 1;
+    contact_set_active (s, 1);
 done:
     pg_free (old), pg_free (cohesion);
     return status;
@@ -342,7 +313,7 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics 
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
-    c->active = 0;
+    contact_set_active (s, 0);
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
     memset (c->rebound, 0, c->pieces.n * sizeof *c->rebound);
@@ -393,7 +364,7 @@ static pg_status check_proportion (const pg_system *s)
 }
 
 /* Pieces of platens that were no pairs may have closed: then once more, with them. */
-pg_status contact_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
+static pg_status solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
     s->contact->moves = dyn != NULL, s->contact->weight = dyn ? dyn->contact : 1;
@@ -484,7 +455,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
 static pg_status find_closed (pg_system *s, const pg_state *state, double t, double *d, unsigned char *closed)
 {
     double residual;
-    pg_status now = contact_solve (s, t, d, NULL, &residual);
+    pg_status now = solve (s, t, d, NULL, &residual);
     for (size_t i = 0; now == PG_OK && i < state->paths->ntip; i++) {
         pg_tip_faces faces;
         contact_at_tip (s, state, i, 1, &faces);
@@ -530,4 +501,43 @@ int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, 
         for (size_t k = 0; k < out->npiece; k++) c->press[k].stress[0][i] *= scale;
     }
     return 1;
+}
+
+/* ---- what the linear system has of it ------------------------------------------------------------------ */
+static void account (const pg_system *s, pg_work_balance *balance)
+{
+    platens_reactions (s, balance->reaction);
+    balance->strain += contact_energy (s);
+}
+
+static double book (pg_system *s, double scale)
+{
+    double work = platens_book (s, scale);
+    contact_book (s, scale);
+    return work;
+}
+
+static const system_client client = { free_contact, contact_refresh, solve, account, book, contact_save,
+                                      contact_return };
+
+pg_status contact_create (pg_system *s)
+{
+    pg_status status = PG_OK;
+    const pg_solver_options *o = s->options;
+    const struct system_contact asked = { .setting = o->contact };
+    int faces = contact_of_faces (&asked),
+        platens = s->problem->nplaten && (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+    if (!faces && !platens) return PG_OK;
+    PG_ALLOC (s->contact, 1);
+    s->client = &client;
+    s->contact->setting = o->contact;
+    /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
+    /* loads with a constant part: contact_route.c */
+    s->contact->history = !o->event, s->contact->weight = 1;
+    PG_ALLOC (s->contact->nodal, s->ndof);
+    s->contact->pieces.dim = (size_t) s->problem->dim;
+    if (platens) PG_TRY (platens_create (s));
+    if (faces) doubt_broken (s);
+done:
+    return status;
 }

@@ -2,8 +2,7 @@
  * The energy balance of a run: external work is summed by trapezoids over pairs of generalised forces and
  * displacements that the force tells of the boundary (pg_work_balance), between one accounted state and the
  * next. What it exceeds strain, kinetic and damping energy by is what breaking has taken (solver.c). */
-#include "contact.h"
-#include "facet_growth.h"
+#include "solve.h"
 #include <string.h>
 
 /* Do forces in motion balance? Of equations that weigh the forces of two times, reactions are asked for once
@@ -39,7 +38,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     pg_system *s = &b->system;
     if (!s->force->work) return PG_OK;
     double t0 = pg_seconds ();
-    const double *contact = s->balance.excavated ? s->balance.excavated : contact_forces (s);
+    const double *contact = s->balance.excavated ? s->balance.excavated : s->balance.pressed;
     pg_known known = { 0 };
     if (dyn && dyn->whole && s->balance.known && !s->options->plain) known.residual = s->balance.residual,
         known.whole = 1;
@@ -53,8 +52,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     if (dyn) PG_TRY (balance_in_motion (s, t, d, &b->work_balance, dyn));
     else {
         force_balance (s, d, &b->work_balance, contact);
-        platens_reactions (s, b->work_balance.reaction);
-        b->work_balance.strain += contact_energy (s);
+        if (s->client) s->client->account (s, &b->work_balance);
     }
     PG_TRY (break_loop_book (b, scale));
 done:
@@ -77,8 +75,7 @@ pg_status break_loop_book (break_loop *b, double scale)
         b->work += 0.5 * (b->before.force[k] + f) * (u - b->before.displacement[k]);
         b->before.force[k] = f, b->before.displacement[k] = u;
     }
-    b->work += platens_book (&b->system, scale);
-    contact_book (&b->system, scale);
+    if (b->system.client) b->work += b->system.client->book (&b->system, scale);
 done:
     return status;
 }
@@ -98,8 +95,8 @@ pg_status break_loop_save (break_loop *b)
         memcpy (b->start.displacement, b->before.displacement, bytes);
     }
     b->strain0 = b->system.report->energy_strain, b->kinetic0 = b->system.report->energy_kinetic;
-    if (b->growth) PG_TRY (facet_save (b));
-    PG_TRY (contact_save (&b->system));
+    if (b->grower) PG_TRY (b->grower->save (b));
+    if (b->system.client) PG_TRY (b->system.client->save (&b->system));
     b->saved = 1;
 done:
     if (status != PG_OK) pg_work_balance_clear (&b->start);
@@ -115,7 +112,7 @@ void break_loop_return (break_loop *b)
         memcpy (b->before.force, b->start.force, bytes);
         memcpy (b->before.displacement, b->start.displacement, bytes);
     } else pg_work_balance_clear (&b->before);
-    if (b->growth) facet_return (b);
-    contact_return (&b->system);
+    if (b->grower) b->grower->restore (b);
+    if (b->system.client) b->system.client->restore (&b->system);
     b->system.report->energy_strain = b->strain0, b->system.report->energy_kinetic = b->kinetic0;
 }

@@ -222,18 +222,18 @@ static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double lev
     *retry = 0;
     PG_TRY (take (s, q, e->unit));
     while (q->nevent < AHEAD_MOST && state->events + (long) q->nevent < s->options.max_events) {
-        event_outcome outcome;
+        inverse_outcome outcome;
         PG_TRY (choose (s, q, state, level, &why));
         if (why) break;
         PG_TRY (refresh (s, state, &b->changes));
         PG_TRY (event_solver_update (e->engine, &outcome));
-        if (outcome == EVENT_LOST) {
+        if (outcome == INVERSE_LOST) {
             PG_TRY (revive (s, q, state, q->nevent - 1));
             q->nbroken = q->event[--q->nevent].first;
             q->cold = -1;                              /* for the next one: a plain event first */
             goto done;
         }
-        q->due |= outcome == EVENT_DUE;
+        q->due |= outcome == INVERSE_DUE;
         PG_TRY (take (s, q, NULL));
     }
     *retry = why == 2;
@@ -262,11 +262,11 @@ static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *g
     for (*good = 0; *good < q->nevent && q->event[*good].factor * cold < 1 - width; ++*good)
         cold = top[*good];
     if (*good < q->nevent) {
-        event_outcome outcome;
+        inverse_outcome outcome;
         q->taken_back++;
         PG_TRY (revive (s, q, state, *good));
         PG_TRY (event_solver_back (e->engine, (int) *good - 1, &outcome));
-        q->due |= outcome == EVENT_DUE || outcome == EVENT_LOST;
+        q->due |= outcome == INVERSE_DUE || outcome == INVERSE_LOST;
         q->nbroken = q->event[*good].first, q->nevent = *good;
         cold = -1;
     }

@@ -42,14 +42,14 @@ static pg_status solve_by_engine (event_stepping *e)
 {
     pg_status status = PG_OK;
     double *const u[2] = { e->base ? e->base : e->unit, e->unit };
-    event_outcome outcome = EVENT_LOST;
+    inverse_outcome outcome = INVERSE_LOST;
     if (event_solver_has_base (e->engine)) PG_TRY (event_solver_update (e->engine, &outcome));
-    if (outcome == EVENT_SAME) return PG_OK;
-    if (outcome != EVENT_LOST) {
+    if (outcome == INVERSE_SAME) return PG_OK;
+    if (outcome != INVERSE_LOST) {
         for (int c = 0; c < (e->base ? 2 : 1); c++) PG_TRY (event_solver_full (e->engine, c, u[c]));
         e->unit_residual = fmax (e->engine_residual, event_solver_residual (e->engine));
     }
-    if (outcome == EVENT_SOLVED) return PG_OK;
+    if (outcome == INVERSE_TAKEN) return PG_OK;
     PG_TRY (event_solver_base (e->engine, u, &e->engine_residual));
     e->unit_residual = e->engine_residual;
 done:
@@ -265,7 +265,7 @@ static pg_status kill_at (pg_solver *s, pg_state *state, double factor, double s
     for (size_t i = 0; !e->base && i < state->nbond; i++) here[i] = here[i] > 0 ? factor / here[i] : 0;
     if (!e->base && e->unstable.held) PG_TRY (worst_here (s, state, &top, &scale));
     instability_before (s, &e->unstable, state);
-    PG_TRY (break_loop_kill (b, state, here, (1 - width) * top, scale, factor));
+    PG_TRY (break_loop_kill (b, state, NULL, here, (1 - width) * top, scale, factor));
     ahead_forget (e->ahead);
 done:
     return status;
@@ -531,23 +531,33 @@ void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
         progress_offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
 }
 
-/* The reason of an end that was found already, the displacement at load factor 1 (and 0), the first
- * stiffness. */
-pg_status event_keep (pg_solver *s, const pg_keeper *k)
+/* The reason of an end that was found already, the first stiffness, and what is known of the equilibria.
+ * *solved: there are some. */
+static pg_status keep_numbers (event_stepping *e, const pg_keeper *k, int *solved)
 {
     pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    size_t ndof = s->break_loop.system.ndof;
     long count[5] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->constant_events, e->lost };
     double number[2] = { e->unit_residual, e->secant0 };
     PG_TRY (k->counts (k->context, "event_stepping.counts", 5, count));
     PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
     PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
     e->ended = (pg_status) count[0], e->balance_fresh = (int) count[1], e->constant_events = count[3];
-    e->lost = count[4] != 0;
+    e->lost = count[4] != 0, *solved = count[2] != 0;
     e->unit_residual = number[0], e->secant0 = number[1];
     PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
-    if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
+done:
+    return status;
+}
+
+/* Besides, the displacement at load factor 1 (and 0). */
+pg_status event_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    size_t ndof = s->break_loop.system.ndof;
+    int solved;
+    PG_TRY (keep_numbers (e, k, &solved));
+    if (solved && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
     PG_TRY (ahead_keep (s, k));
     if (e->engine) {
@@ -571,16 +581,11 @@ pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved)
     const pg_keeper *k = moved->alike;
     break_loop *b = &s->break_loop;
     size_t components = (size_t) b->system.components;
-    long count[5];
-    double number[2];
-    PG_TRY (k->counts (k->context, "event_stepping.counts", 5, count));
-    PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
-    PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
-    PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
+    int solved;
+    PG_TRY (keep_numbers (e, k, &solved));
     PG_TRY (moved->points (moved->context, "event_stepping.unit", components, e->unit));
     if (e->base) PG_TRY (moved->points (moved->context, "event_stepping.base", components, e->base));
-    e->ended = (pg_status) count[0], e->constant_events = count[3], e->lost = 1, e->balance_fresh = 0;
-    e->unit_residual = number[0], e->secant0 = number[1];
+    e->lost = 1, e->balance_fresh = 0;
     if (e->engine) event_solver_drop (e->engine);
     ahead_refused (e->ahead);
     PG_TRY (instability_moved (s, &e->unstable, k));

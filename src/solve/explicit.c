@@ -63,7 +63,7 @@ pg_status explicit_create (pg_solver *s)
     pg_status status = PG_OK;
     pg_system *sys = &s->break_loop.system;
     const pg_force_type *force = sys->force;
-    const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
+    const pg_sparse *T = system_basis (sys);
     motion *m = motion_of (s);
     if (T && force->impose) PG_TRY (find_prescribed (s, T, sys->ndof));
     PG_ALLOC (m->lists, 3 * m->nprescribed);
@@ -172,7 +172,7 @@ static pg_status break_by_utilisation (pg_solver *s, pg_state *state, double t)
     PG_TRY (break_loop_ready (b));
     PG_TRY (sys->force->judge (sys->self, state, state->d,
                                &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
-    PG_TRY (break_loop_kill (b, state, b->utilisation, 1, 1, t));
+    PG_TRY (break_loop_kill (b, state, NULL, b->utilisation, 1, 1, t));
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     if (b->changes.n) PG_TRY (system_refresh (sys, state, &b->changes));
 done:

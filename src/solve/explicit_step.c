@@ -278,7 +278,7 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     /* of contact by search, or of crack faces: never both */
-    const double *contact = sys->contact ? contact_forces (sys) : NULL;
+    const double *contact = sys->balance.pressed;
     int searched = explicit_contact_active (s),
         spare = !s->options.plain && !b->growth && !contact && !searched;
     for (size_t i = 0; !spare && i < sys->ndof; i++) sys->balance.full[i] =
@@ -304,7 +304,7 @@ static void measure_balance (pg_solver *s, const pg_state *state, int staggered)
 {
     const motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
-    const double *contact = sys->contact ? contact_forces (sys) : NULL;
+    const double *contact = sys->balance.pressed;
     if (!force_balance_due (sys)) return;
     for (size_t i = 0; i < sys->ndof; i++) sys->balance.full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++)

@@ -102,8 +102,7 @@ enum {
 static const double facet_tie = 1e-3;
 
 /* ---- facet_growth.c ------------------------------------------------------------------------------------ */
-pg_status facet_create  (break_loop *b);               /* where the criterion judges tips, else nothing */
-void      facet_free    (break_loop *b);
+pg_status facet_create  (break_loop *b);  /* where the criterion judges tips: a client of the loop */
 pg_status facet_keep    (break_loop *b, const pg_keeper *keeper);
 pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_keeper *keeper);
 /* Measures all open tips, and asks for trial facets. base NULL: the one field `unit`, with the loads of t;
@@ -122,12 +121,8 @@ pg_status facet_grow    (break_loop *b, pg_state *state, double factor, double t
 pg_status facet_grow_one (break_loop *b, pg_state *state, const facet_candidate *c, double t);
 /* Tips that have grown and lost their room go straight out, at once: *grew. */
 pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew);
-/* The tips at the load factor of a step, for results (1 after facet_round). */
+/* The tips at the load factor of a step, for results (1 after a round at a fixed load). */
 pg_status facet_show    (pg_solver *s, const pg_state *state, double factor);
-/* One round at a fixed load, the displacement d being in equilibrium: *over: something grew, and the caches
- * of the force are fresh. */
-pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, pg_step *step,
-                         int *over);
 
 /* ---- facet_ends.c -------------------------------------------------------------------------------------- */
 /* How many open tips nothing judges at a load factor, by the last measurement; where none is open and none

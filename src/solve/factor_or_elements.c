@@ -13,7 +13,7 @@
  * regret has reached the cost of the change (rent or buy: at most twice the cost of the best choice
  * afterwards): a set-up of the elements and a share of the factor that the way back will cost, or that
  * factor. It depends on counts alone. */
-#include "event_solver.h"
+#include "inverse.h"
 #include <math.h>
 #include <string.h>
 
@@ -62,8 +62,8 @@ static double breaking_cost (pg_system *s)
     system_updates *u = &s->updates;
     pg_ways *w = &s->choice.ways;
     double now = 0;
-    if (u->following && event_solver_has_base (u->following))
-        now = event_solver_spent (u->following) + event_solver_filled (u->following) * factor_again (s);
+    if (u->following && inverse_has_base (u->following))
+        now = inverse_spent (u->following, factor_again (s));
     double cost = now > w->spent ? now - w->spent : 0;
     w->spent = now;
     w->breaking += cost, w->bonds += w->fresh;
@@ -82,8 +82,8 @@ void ways_note_factor (pg_system *s)
 static void to_elements (pg_system *s)
 {
     system_choice *c = &s->choice;
-    if (s->updates.following) event_solver_drop (s->updates.following);
-    event_solver_free (&s->updates.following);
+    if (s->updates.following) inverse_forget (s->updates.following);
+    inverse_free (&s->updates.following);
     c->mode = SYSTEM_NO_FACTOR, s->direct.stale = 1, c->extra_cost = 0;
     c->ways.meanwhile = 1, c->ways.regret = 0;
 }
@@ -121,7 +121,7 @@ void ways_count (pg_system *s, size_t iterations)
     pg_ways *w = &s->choice.ways;
     double used = (double) iterations, balance = 0;
     if (s->choice.mode == SYSTEM_KEPT_FACTOR && s->problem->dim > 2 && s->force->spares.elements) {
-        int broken = s->updates.following && event_solver_touched (s->updates.following) > 0;
+        int broken = s->updates.following && s->updates.following->touched.t > 0;
         balance = breaking_cost (s)
                   + used * ((broken ? 2 : 1) * system_solve_cost (s) + system_apply_cost (s))
                   - elements_cost (s, w->iterations > 0 ? w->iterations : FIRST_GUESS);

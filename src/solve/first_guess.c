@@ -37,7 +37,7 @@ void system_guess_free (pg_system *s)
 }
 
 /* Room for the pairs: one more than are used, for the pair in the making. */
-pg_status system_guess_ready (pg_system *s)
+static pg_status guess_ready (pg_system *s)
 {
     system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
@@ -110,7 +110,7 @@ pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
     pg_guess *g = &s->iterative.guess;
     double G[PAIRS][PAIRS] = { { 0 } }, b[PAIRS] = { 0 }, c[PAIRS];
     int at[PAIRS], n, most = 0;
-    PG_TRY (system_guess_ready (s));
+    PG_TRY (guess_ready (s));
     if (!g->fresh) g->n = 0, g->fresh = 1;
     *used = n = g->n;
     double *x = pair_x (s, g->next), *y = pair_y (s, g->next);
@@ -174,7 +174,7 @@ pg_status system_guess_keep (pg_system *s, const pg_keeper *k)
     g->n = (int) count[0], g->next = (int) count[1], g->fresh = count[2] != 0;
     s->balance.unmeasured = count[3];
     if (g->n == 0) goto done;
-    PG_TRY (system_guess_ready (s));
+    PG_TRY (guess_ready (s));
     PG_TRY (k->numbers (k->context, "system.guess.x", (PAIRS + 1) * s->ndof, g->x));
     PG_TRY (k->numbers (k->context, "system.guess.y", (PAIRS + 1) * s->ndof, g->y));
 done:

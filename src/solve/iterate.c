@@ -22,8 +22,7 @@ static void apply_combined (void *context, const double *x, double *y)
     pg_system *s = c->s;
     double *z = c->T ? s->balance.scratch : y;
     c->image = z;
-    if (c->T) pg_sparse_multiply (c->T, x, s->balance.full);
-    const double *full = c->T ? s->balance.full : x;
+    const double *full = system_step (s, x);
     system_multiply (s, full, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass (s, c->dyn->m, full, z);
@@ -75,39 +74,6 @@ static pg_status carry_residual (void *context, double alpha, double residual, i
            : PG_OK;
 }
 
-/* The factor of an earlier K as preconditioner (kept_factor.c). */
-static pg_status by_factor_of_before (void *context, const double *r, double *z)
-{
-    return system_apply_factor (context, r, z);
-}
-
-/* Finite elements know all unknowns. With elimination, d = T q, the residual of q is put at the unknowns that
- * q are, and the result taken from there: at those that q determines the elements are held. */
-static pg_status by_elements (void *context, const double *r, double *z)
-{
-    pg_status status = PG_OK;
-    pg_system *s = context;
-    pg_preconditioner P = pg_element_preconditioner_of (s->iterative.elements);
-    if (!s->iterative.own_row) {
-        PG_TRY (P.solve (P.context, r, z));
-        system_clear_rest (s, z);
-        goto done;
-    }
-    memset (s->balance.full, 0, s->ndof * sizeof *s->balance.full);
-    for (size_t j = 0; j < s->nred; j++) s->balance.full[s->iterative.own_row[j]] = r[j];
-    PG_TRY (P.solve (P.context, s->balance.full, s->balance.scratch));
-    system_clear_rest (s, s->balance.scratch);
-    for (size_t j = 0; j < s->nred; j++) z[j] = s->balance.scratch[s->iterative.own_row[j]];
-done:
-    return status;
-}
-
-/* What ranks that share the body have made together. */
-static pg_status by_ranks (void *context, const double *r, double *z)
-{
-    return system_apply_shared (context, r, z);
-}
-
 /* In the rounds of breaking within a small time step, for which the diagonal does, a break is felt no further
  * than a wave gets in a few steps. */
 static int is_local (const pg_system *s, const dynamics *dyn)
@@ -118,17 +84,14 @@ static int is_local (const pg_system *s, const dynamics *dyn)
 
 /* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. In motion `residual` becomes
  * that of the new state, by the sums that the iterations make anyway. */
-pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
-                          size_t *used)
+pg_status system_iterate (pg_system *s, const dynamics *dyn, const pg_preconditioner *P, double tolerance,
+                          size_t limit, size_t *used)
 {
     system_balance *b = &s->balance;
     system_iterations *it = &s->iterative;
-    combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL, 0 };
+    combined c = { s, dyn, system_basis (s), NULL, 0 };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
     int carries = dyn && !s->options->plain;
-    pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : system_by_ranks (s) ? by_ranks
-                                                                                          : by_elements,
-                            s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (b->delta, 0, s->ndof * sizeof *b->delta);
@@ -136,12 +99,10 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     if (carries && it->rough.goal > 0) c.keep = ROUGHER * it->rough.goal * b->unbalanced;
     pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn),
                           system_is_shared (s), &it->cg_room };
-    pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, b->reduced,
-                                                       b->delta, tolerance, limit, used, &watch);
+    pg_status status = pg_conjugate_gradients_watched (&op, P, b->reduced, b->delta, tolerance, limit, used,
+                                                       &watch);
     b->carried = carries && status == PG_OK;
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-    if (by != BY_FACTOR) strcpy (s->report->solver, "cg");
-    if (by == BY_DIAGONAL && !system_has_preconditioner (s)) strcpy (s->report->preconditioner, "jacobi");
     return status;
 }

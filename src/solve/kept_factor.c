@@ -1,25 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A factor of k K + m M that serves on while bonds break.
  *
- * It preconditions conjugate gradients on the matrix of now. In motion it is the base of an event solver
- * besides (event_solver.h, without load cases): what breaking has changed since the factor was made is
- * W (k D) W' on the t touched unknowns, so that with A the matrix of the factor and H = W' A^-1 W
- *
- *     (A + W k D W')^-1 r = z - A^-1 W (1 + k D H)^-1 k D W' z,    z = A^-1 r        (Woodbury's identity)
- *
+ * It preconditions conjugate gradients on the matrix of now. In motion it is the base of an inverse
+ * besides (inverse.h), which takes in what breaking has changed of K since the factor was made: that
  * preconditions exactly up to rounding, and one iteration does instead of one for about every number that
  * breaking has changed in the spectrum. Whatever it is, the iterations measure by K itself: what cannot be
  * followed (too many unknowns, other constraints) costs iterations and no digit. */
-#include "event_solver.h"
+#include "inverse.h"
+#include <string.h>
 
 /* Follows what breaks from here on, where the force can tell. The factor has just been made. */
-pg_status system_follow (pg_system *s, const dynamics *dyn)
+static pg_status follow (pg_system *s, const dynamics *dyn)
 {
     system_updates *u = &s->updates;
     pg_status status = PG_OK;
     if (!dyn || !s->problem->criterion->type) return PG_OK;
-    if (!u->following) PG_TRY (event_solver_create (&u->following, s, 0, NULL));
-    if (u->following) PG_TRY (event_solver_follow (u->following, dyn->k, dyn->m));
+    if (!u->following) PG_TRY (inverse_create (&u->following, s, INVERSE_HALVES));
+    if (u->following) PG_TRY (inverse_renew (u->following, dyn->k, dyn->m, 0));
     ways_note_factor (s);
 done:
     return status;
@@ -31,21 +28,52 @@ pg_status system_note_change (pg_system *s)
 {
     system_updates *u = &s->updates;
     pg_status status = PG_OK;
-    event_outcome outcome;
-    if (!u->following || !event_solver_has_base (u->following)) return PG_OK;
-    int served = event_solver_touched (u->following) > 0;
-    PG_TRY (event_solver_note (u->following, &outcome));
-    if (outcome == EVENT_DUE || (outcome == EVENT_LOST && served)) s->choice.extra_cost = 1e300;
+    inverse_outcome outcome;
+    if (!u->following || !inverse_has_base (u->following)) return PG_OK;
+    int served = u->following->touched.t > 0;
+    PG_TRY (inverse_take (u->following, &outcome));
+    if (outcome == INVERSE_LOST ? served : outcome == INVERSE_TAKEN && inverse_is_due (u->following))
+        s->choice.extra_cost = 1e300;
 done:
     return status;
 }
 
 /* z = the inverse of the factored matrix, or of the one of now, times r. */
-pg_status system_apply_factor (pg_system *s, const double *r, double *z)
+static pg_status apply_factor (void *context, const double *r, double *z)
 {
-    if (s->updates.following && event_solver_has_base (s->updates.following))
-        return event_solver_correct (s->updates.following, r, z);
+    pg_system *s = context;
+    if (s->updates.following && inverse_has_base (s->updates.following))
+        return inverse_solve (s->updates.following, r, z);
     return s->direct.linear->solve (s->direct.factor, 1, r, z);
+}
+
+/* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping
+ * when K has changed a little. */
+static const double worth_keeping = 15;
+
+/* Factors where K has changed, then two triangular solves. A factor that is dear against its solves is
+ * kept as a preconditioner from then on, as a few broken bonds change K little. */
+pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn)
+{
+    system_factor *f = &s->direct;
+    pg_status status = PG_OK;
+    if (f->stale) PG_TRY (system_factorize (s, dyn));
+    double t0 = pg_seconds ();
+    pg_linear_info info;
+    PG_TRY (f->linear->solve (f->factor, 1, s->balance.reduced, s->balance.delta));
+    f->linear->info (f->factor, &info);
+    s->report->cg_iterations += info.iterations - s->iterative.matrix_iterations;
+    s->iterative.matrix_iterations = info.iterations;
+    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    int keep = system_operator (s) && strcmp (s->options->linear, "auto") == 0 && !f->indefinite
+               && f->unshifted;
+    if (keep && !f->props.n
+        && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) {
+        s->choice.mode = SYSTEM_KEPT_FACTOR;
+        PG_TRY (follow (s, dyn));
+    }
+done:
+    return status;
 }
 
 /* The factor of an earlier K preconditions conjugate gradients. It is renewed when the iterations beyond
@@ -58,11 +86,12 @@ pg_status system_solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
     size_t used = 0;
     if (s->direct.stale && c->extra_cost > system_factor_cost (s)) {
         PG_TRY (system_factorize (s, dyn));
-        PG_TRY (system_follow (s, dyn));
+        PG_TRY (follow (s, dyn));
         c->extra_cost = 0;
     }
     c->spared += s->direct.stale;
-    pg_status now = system_iterate (s, dyn, BY_FACTOR, tolerance, 200, &used);
+    pg_preconditioner P = { s, apply_factor, s->problem->threads };
+    pg_status now = system_iterate (s, dyn, &P, tolerance, 200, &used);
     if (used > 2) c->extra_cost += (double) (used - 2) * (system_solve_cost (s) + system_apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);

@@ -121,7 +121,7 @@ static void add_resistance (void *context, const double *d, double *residual)
     const course *m = context;
     newmark *n = m->n;
     double *v = n->work1, *a = n->work3, *Ma = n->work4;
-    const double *contact = contact_forces (n->system);
+    const double *contact = n->system->balance.pressed;
     rates (m, d, v, a);
     newmark_damp (n, v, residual);
     system_add_held (n->system, residual);

@@ -154,7 +154,7 @@ pg_status newmark_without_contact (newmark *n, double *a)
 {
     pg_status status = PG_OK;
     pg_system *sys = n->system;
-    const double *contact = contact_forces (sys);
+    const double *contact = sys->balance.pressed;
     double *kept = n->work4;
     if (!contact) return PG_OK;
     memcpy (kept, sys->balance.residual, sys->ndof * sizeof *kept);
@@ -171,7 +171,7 @@ pg_status newmark_rebound (newmark *n, const pg_state *from, double *v)
     pg_status status = PG_OK;
     pg_system *sys = n->system;
     double *kept = n->work4, *dv = kept + sys->ndof, lost = 0, a = 0, b = 0;
-    if (!contact_forces (sys)) return PG_OK;
+    if (!sys->balance.pressed) return PG_OK;
     memcpy (kept, sys->balance.residual, sys->ndof * sizeof *kept);
     PG_TRY (contact_impacts (sys, from->d, sys->balance.residual, &lost));
     memset (dv, 0, sys->ndof * sizeof *dv);

@@ -84,7 +84,7 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *T = system_basis (s);
     *can = 0;
     if (!has_what_it_takes (s, dyn)) return PG_OK;
     if (it->fixed) {
@@ -238,7 +238,7 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
 {
     pg_operator op = { s->ndof, s, apply_free, NULL };
     pg_preconditioner P = pg_multilevel_preconditioner (s->iterative.multilevel);
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *T = system_basis (s);
     double t0 = pg_seconds (), *b = s->balance.scratch, *x = s->balance.full;
     for (size_t i = 0; i < s->ndof; i++) b[i] = s->iterative.fixed[i] ? 0 : s->balance.residual[i], x[i] = 0;
     pg_status status = hold_hanging (s);
@@ -250,16 +250,43 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
     return status;
 }
 
+/* Finite elements know all unknowns. With elimination, d = T q, the residual of q is put at the unknowns that
+ * q are, and the result taken from there: at those that q determines the elements are held. */
+static pg_status by_elements (void *context, const double *r, double *z)
+{
+    pg_status status = PG_OK;
+    pg_system *s = context;
+    pg_preconditioner P = pg_element_preconditioner_of (s->iterative.elements);
+    if (!s->iterative.own_row) {
+        PG_TRY (P.solve (P.context, r, z));
+        system_clear_rest (s, z);
+        goto done;
+    }
+    memset (s->balance.full, 0, s->ndof * sizeof *s->balance.full);
+    for (size_t j = 0; j < s->nred; j++) s->balance.full[s->iterative.own_row[j]] = r[j];
+    PG_TRY (P.solve (P.context, s->balance.full, s->balance.scratch));
+    system_clear_rest (s, s->balance.scratch);
+    for (size_t j = 0; j < s->nred; j++) z[j] = s->balance.scratch[s->iterative.own_row[j]];
+done:
+    return status;
+}
+
+/* What ranks that share the body have made together. */
+static pg_status by_ranks (void *context, const double *r, double *z)
+{
+    return system_apply_shared (context, r, z);
+}
+
 /* Solves; keeps account of what an older preconditioner costs: pace is the gain of one iteration, as a
  * logarithm, when it was new. */
 static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, size_t *used)
 {
     system_iterations *iterations = &s->iterative;
-    size_t most = iterations->elements && pg_element_preconditioner_on_grid (iterations->elements)
-                  ? MOST_ON_GRID
-                                                                                 : MOST_BY_ELEMENTS;
+    int on_grid = iterations->elements && pg_element_preconditioner_on_grid (iterations->elements);
+    size_t most = on_grid ? MOST_ON_GRID : MOST_BY_ELEMENTS;
+    pg_preconditioner P = { s, system_by_ranks (s) ? by_ranks : by_elements, s->problem->threads };
     pg_status status = iterations->elements || system_by_ranks (s)
-                           ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, most, used)
+                           ? system_iterate (s, dyn, &P, tolerance, most, used)
                            : iterate_all (s, tolerance, used);
     /* where it stopped early, less than was asked for */
     double gain = -log (fmax (iterations->fell, tolerance));

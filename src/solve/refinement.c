@@ -3,7 +3,6 @@
  * residual is taken from the force itself, not from K. How a state is judged that is not exactly in balance,
  * and the message for one that is refused. */
 #include "body_parts.h"
-#include "contact.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,7 +28,7 @@ static double force_of_rounding (const pg_system *s, const double *d)
 static double largest_reference (pg_system *s)
 {
     system_balance *b = &s->balance;
-    const double *contact = contact_forces (s);
+    const double *contact = b->pressed;
     double sum = b->loaded;
     if (contact) sum += system_norm (s, contact, s->ndof);
     if (b->excavated) sum += system_norm (s, b->excavated, s->ndof);
@@ -53,7 +52,7 @@ static pg_status know_loads (pg_system *s, double t)
     pg_problem_box (p, low, high);
     for (int k = 0; k < p->dim; k++) length = fmax (length, high[k] - low[k]);
     memset (d, 0, s->ndof * sizeof *d);
-    if (s->force->basis && s->force->basis (s->self) && s->force->impose)
+    if (system_basis (s) && s->force->impose)
         PG_TRY (s->force->impose (s->self, t, d));
     PG_TRY (system_exchange (s, d));
     PG_TRY (s->force->balance (s->self, t, d, b->scratch, &reference));
@@ -70,20 +69,22 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
     system_balance *b = &s->balance;
     pg_status status = PG_OK;
     double reference = 0, t0 = pg_seconds ();
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *T = system_basis (s);
     int lean = dyn && !s->options->plain && s->force->spares.balance_lean;
     int joined = lean && dyn->join && dyn->join (dyn->context, d, b->full);
     if (lean)
         PG_TRY (s->force->spares.balance_lean (s->self, t, joined ? b->full : d, b->residual, &reference));
     else PG_TRY (s->force->balance (s->self, t, d, b->residual, &reference));
     if (dyn) dyn->add (dyn->context, d, b->residual, &reference);
-    const double *contact = contact_forces (s);
+    const double *contact = b->pressed;
     for (size_t i = 0; contact && i < s->ndof; i++) b->residual[i] += contact[i];
-    if (!dyn) loose_forces (s, d, b->residual);
+    for (size_t j = 0; !dyn && j < s->direct.props.n; j++) {
+        size_t i = s->direct.props.unknown[j];
+        b->residual[i] -= s->direct.mean_diagonal * (d[i] - s->direct.props.target[j]);
+    }
     for (size_t i = 0; b->excavated && !dyn && i < s->ndof; i++) b->residual[i] += b->excavated[i];
     system_clear_ghosts (s, b->residual);
-    if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
-    else memcpy (b->reduced, b->residual, s->ndof * sizeof *b->reduced);
+    system_reduce (s, b->residual, b->reduced);
     /* a rank may have no supports where others have */
     if (T || system_is_shared (s)) reference = fmax (reference, system_norm (s, b->residual, s->ndof));
     if (!dyn && b->lever > 0) reference = fmin (reference, largest_reference (s));
@@ -108,7 +109,7 @@ enum { MEASURED_AGAIN = 16 };
 static int accept_carried (pg_system *s, double *relative)
 {
     system_balance *b = &s->balance;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *T = system_basis (s);
     if (!b->carried || *relative > 0.1 || s->report->solves % MEASURED_AGAIN == 0) return 0;
     if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
     double size = system_norm (s, T ? b->reduced : b->residual, s->nred);
@@ -134,15 +135,13 @@ static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d,
 {
     system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     if (*restless >= 0) return PG_OK;
     b->known = 0;
     pg_status now = system_solve_once (s, dyn, 0.1);
     if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) *restless = 1;
     else {
         PG_TRY (now);
-        if (T) pg_sparse_multiply (T, b->delta, b->full);
-        *restless = restlessness (s, T ? b->full : b->delta, d);
+        *restless = restlessness (s, system_step (s, b->delta), d);
     }
 done:
     return status;
@@ -166,8 +165,7 @@ static pg_status refuse (pg_system *s, double residual, double restless)
 {
     system_balance *b = &s->balance;
     const pg_problem *p = s->problem;
-    size_t point = worst_unknown (s, s->force->basis ? s->force->basis (s->self) : NULL)
-                   / (size_t) s->components;
+    size_t point = worst_unknown (s, system_basis (s)) / (size_t) s->components;
     const double *x = p->cloud.x + point * (size_t) p->dim;
     char where[96];
     snprintf (where, sizeof where, "largest at point %zu (%g, %g, %g) m", point, x[0], p->dim > 1 ? x[1] : 0,
@@ -248,9 +246,7 @@ static double aim (const pg_system *s)
 /* to = d + T x */
 void system_go_on (pg_system *s, const double *d, const double *x, double *to)
 {
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    if (T) pg_sparse_multiply (T, x, s->balance.full);
-    const double *step = T ? s->balance.full : x;
+    const double *step = system_step (s, x);
     for (size_t i = 0; i < s->ndof; i++) to[i] = d[i] + step[i];
 }
 
@@ -270,7 +266,7 @@ pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamic
 {
     system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *T = system_basis (s);
     pg_rough *rough = &s->iterative.rough;
     double r;
     *done = 0;
@@ -306,7 +302,7 @@ static pg_status solve_linear (pg_system *s, double t, double *d, const dynamics
 {
     system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *T = system_basis (s);
     double last = INFINITY, r = 0, restless = -1;
     b->at_hand = 0;
     if (!dyn) PG_TRY (know_loads (s, t));
@@ -332,8 +328,7 @@ static pg_status solve_linear (pg_system *s, double t, double *d, const dynamics
         last = r, before.unbalanced = b->unbalanced, before.reference = b->reference;
         b->carried = b->known = 0;
         PG_TRY (system_solve_once (s, dyn, fmin (0.1, aim (s) * s->options->tolerance / r)));
-        if (T) pg_sparse_multiply (T, b->delta, b->full);
-        const double *step = T ? b->full : b->delta;
+        const double *step = system_step (s, b->delta);
         for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
         PG_TRY (system_exchange (s, d));
         if (guesses (s, dyn)) system_guess_add (s, step);
@@ -357,6 +352,6 @@ pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics
 
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
-    return s->contact ? contact_solve (s, t, d, dyn, residual)
-                      : system_solve_linear (s, t, d, dyn, residual);
+    return s->client ? s->client->solve (s, t, d, dyn, residual)
+                     : system_solve_linear (s, t, d, dyn, residual);
 }

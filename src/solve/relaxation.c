@@ -260,7 +260,7 @@ static pg_status arm (pg_solver *s, const pg_state *state, double t, int breakin
     pg_system *sys = &s->break_loop.system;
     x->armed = 1;
     if (!sys->force->work || !breaking) return PG_OK;
-    PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = contact_forces (sys) },
+    PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = sys->balance.pressed },
                               &s->break_loop.work_balance));
     s->break_loop.work_balance.strain += contact_energy (sys);
     x->pending = 1;
@@ -305,7 +305,7 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
                 ? 1
                 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
         if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
-        if (top > 1) PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
+        if (top > 1) PG_TRY (break_loop_kill (b, state, NULL, b->utilisation, cut, 1, t));
         s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
         if (b->changes.n) {
             PG_TRY (system_refresh (sys, state, &b->changes));

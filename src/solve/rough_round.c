@@ -149,12 +149,6 @@ done:
     return status;
 }
 
-/* at = displacement of an iterate */
-static void place_view (looking *w, const pg_rough_view *v, double *at)
-{
-    system_go_on (&w->b->system, w->d, v->delta, at);
-}
-
 /* Utilisation of the candidates by an iterate. */
 static pg_status judge_view (looking *w, pg_rough_view *v)
 {
@@ -162,7 +156,7 @@ static pg_status judge_view (looking *w, pg_rough_view *v)
     pg_system *s = &w->b->system;
     if (v->list == w->list) return PG_OK;
     PG_GROW (v->u, v->room, w->candidates.n);
-    place_view (w, v, w->at);
+    system_go_on (s, w->d, v->delta, w->at);
     PG_TRY (s->force->judge (s->self, w->state, w->at,
                              &(pg_judging){ .group = &w->candidates, .utilisation = v->u }));
     v->list = w->list;
@@ -185,7 +179,8 @@ static pg_status look_at_all (looking *w, const pg_rough_view *now, const pg_rou
     pg_status status = PG_OK;
     break_loop *b = w->b;
     pg_rough *r = &b->system.iterative.rough;
-    place_view (w, now, w->at), place_view (w, before, r->before);
+    system_go_on (&b->system, w->d, now->delta, w->at);
+    system_go_on (&b->system, w->d, before->delta, r->before);
     PG_TRY (judge_both (b, w->state, w->at, &w->top, &w->can));
     w->looks++;
     if (!w->can || !(w->top > 1)) {                    /* the end of the cascade: to be solved exactly */

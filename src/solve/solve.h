@@ -77,6 +77,9 @@ typedef struct {
      * constraints leave of it; the diagonal of K, while that of A stands in its place; else NULL. */
     pg_sparse A; int owned;
     double   *copy, *own_diagonal;
+    /* Springs as stiff as the mean diagonal, from unknowns to places, m, that hold parts which move freely
+     * and are meant to bear nothing; borrowed. */
+    struct { size_t n; const size_t *unknown; const double *target; } props;
     int       forgotten;  /* 1: K was given up for its factor */
     double   *diagonal0, mean_diagonal;                /* of the first K */
     double    shift;  /* of the diagonal of weak unknowns, of mean_diagonal */
@@ -96,7 +99,7 @@ typedef struct {
     int       serves;  /* 1: asked for before the first solve: a factor is to serve many events */
     int       base;  /* 1: the factor is the base of an event solver, which it serves whatever has broken */
     long      by_columns;                              /* equilibria by an event solver, no new factor */
-    struct event_solver *following;  /* in motion: what has broken since the factor was made; or NULL */
+    struct inverse *following;  /* in motion: what has broken since the factor was made; or NULL */
 } system_updates;
 
 /* Conjugate gradients: their preconditioners and what they begin with. */
@@ -129,6 +132,7 @@ typedef struct {
     double   *residual, *reduced, *delta, *full, *best, *scratch;
     const double *excavated;  /* forces at rest that what was removed still exerts, N (ndof); NULL: none */
     const double *held;  /* forces that facets still carry while they open, N (ndof); NULL: none */
+    const double *pressed;  /* forces of contact as they stand in the equations, N (ndof); NULL: none */
     /* of the last state measured, N: its forces; what it lacks to balance */
     double    reference, unbalanced;
     double    scale;  /* what its residual was divided by: the reference, or forces of rounding */
@@ -150,11 +154,29 @@ typedef struct {
     long      kept;                                    /* refreshes that left K as it was */
     /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
     double    extra_cost;
+    double    columns;  /* right-hand sides that every new K is solved with beside the loads */
     int       begins;                                  /* the state to be solved for begins a step */
     pg_ways   ways;
 } system_choice;
 
+struct pg_system;
+/* What acts on the body beside its loads and as it moves (contact.h). */
 typedef struct {
+    void      (*free)    (struct pg_system *s);
+    /* After the force was refreshed by these changes; NULL: all. */
+    pg_status (*refresh) (struct pg_system *s, const pg_state *state, const pg_changes *changes);
+    /* As system_solve. */
+    pg_status (*solve)   (struct pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
+    /* At rest: its part of the energies and of the reactions of loads. Work that it has done since the state
+     * that was booked last, loads scaled, J. */
+    void      (*account) (const struct pg_system *s, pg_work_balance *balance);
+    double    (*book)    (struct pg_system *s, double scale);
+    /* At the start of a step; where it is refused. */
+    pg_status (*save)    (struct pg_system *s);
+    void      (*restore) (struct pg_system *s);
+} system_client;
+
+typedef struct pg_system {
     const pg_problem    *problem;
     const pg_force_type *force;
     void                *self;
@@ -169,7 +191,8 @@ typedef struct {
     system_updates    updates;
     system_iterations iterative;
     system_choice     choice;
-    struct system_contact *contact;                    /* of crack faces (contact.h); NULL: none */
+    const system_client   *client;                     /* NULL: nothing acts on it */
+    struct system_contact *contact;                    /* of crack faces and platens; NULL: none */
 } pg_system;
 /* shared_system.c: where ranks share the body; sums over ranks, which leave alone what one process has */
 int       system_is_shared (const pg_system *s);
@@ -194,30 +217,36 @@ int       system_has_matrix (const pg_system *s);       /* the force offers K it
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller */
 void      system_free    (pg_system *s);
 pg_status system_factorize (pg_system *s, const dynamics *dyn);  /* k K + m M of the last refresh */
+/* Can K be factored? Are systems solved by factors? Is the factor at hand that of K as it is now? */
+int       system_can_factor (const pg_system *s);
+int       system_factors    (const pg_system *s);
+int       system_has_factor (const pg_system *s);
 /* Frees what was made to be factored, not the factor. */
 void      system_release_matrix (pg_system *s);
+/* What constraints leave of the unknowns, d = T q + g; NULL: all of them. reduced = T' full; full = T x; T x
+ * in balance.full, or x itself. */
+const pg_sparse *system_basis (const pg_system *s);
+void      system_reduce  (const pg_system *s, const double *full, double *reduced);
+void      system_expand  (const pg_system *s, const double *x, double *full);
+const double *system_step (const pg_system *s, const double *x);
 const pg_operator *system_operator (const pg_system *s);               /* of the force; NULL: it has none */
 void      system_remember_diagonal (pg_system *s, const pg_sparse *K);  /* once; K NULL: by the operator */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 /* Systems with another matrix than so far, solved in this way: SYSTEM_... */
 void      system_switch  (pg_system *s, int mode);
 /* Seconds by stored rates: K from the shape functions; a factorization; two triangular solves of one
- * right-hand side. */
+ * right-hand side; one product K x; assembly and factor before there is any. */
 double    system_assembly_cost (const pg_system *s);
 double    system_factor_cost (const pg_system *s);
 double    system_solve_cost  (const pg_system *s);
-/* choice.c: how systems are solved; seconds of one product K x, and of assembly and factor before there is
- * any, both by stored rates */
-pg_status system_choose (pg_system *s, const dynamics *dyn);
 double    system_apply_cost  (const pg_system *s);
 double    system_direct_cost (const pg_system *s);
 /* y = K x, by operator or matrix */
 void      system_multiply (const pg_system *s, const double *x, double *y);
-/* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the diagonal, the factor at hand
- * or the finite elements at hand (iterate.c). */
-enum { BY_DIAGONAL, BY_FACTOR, BY_ELEMENTS };
-pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
-                          size_t *used);
+/* delta = (k K + m M)^-1 reduced by conjugate gradients with a preconditioner, NULL: the diagonal
+ * (iterate.c). */
+pg_status system_iterate (pg_system *s, const dynamics *dyn, const pg_preconditioner *P, double tolerance,
+                          size_t limit, size_t *used);
 /* Solves (k K + m M) delta = reduced by conjugate gradients with a preconditioner of several levels, by the
  * rows of K (multilevel; K alone) or by finite elements, made when needed (preconditioner.c). */
 pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, double tolerance);
@@ -229,13 +258,14 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
 /* The spring of an unknown that breaking has made weak, of the mean diagonal of the first K. */
 #define WEAK_SPRING 1e-11
 pg_status system_remember_alive (pg_system *s);        /* in `factored`, cracks in `factored_paths` */
+/* A copy of cracks that grow, in its own memory. */
+pg_status system_copy_paths (const pg_system *s, pg_crack_paths **to, const pg_crack_paths *from);
 void      system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched);
 pg_status system_guess       (pg_system *s, const dynamics *dyn, double *d, int *used);
 void      system_guess_undo  (pg_system *s, double *d);
 void      system_guess_add   (pg_system *s, const double *step);
 void      system_guess_learn (pg_system *s);
 void      system_guess_free  (pg_system *s);
-pg_status system_guess_ready (pg_system *s);
 pg_status system_guess_keep  (pg_system *s, const pg_keeper *k);
 /* break_residual.c: refreshes after a round of breaking at d; where it can the residual goes with it
  * (at_hand). Takes that residual, relative to what the last one measured was divided by. */
@@ -245,11 +275,9 @@ double    system_take_residual (pg_system *s);
 pg_status system_keep_residual (pg_system *s, const pg_keeper *k);
 /* Factors where K has changed, then solves. */
 pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn);
-/* kept_factor.c: a factor that serves on while bonds break: solve with it; z = (that or the matrix of now)^-1
- * r; follow what breaks from now on; take in what the last refresh changed. */
+/* kept_factor.c: a factor that serves on while bonds break: solve with it; take in what the last refresh
+ * changed. */
 pg_status system_solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance);
-pg_status system_apply_factor (pg_system *s, const double *r, double *z);
-pg_status system_follow      (pg_system *s, const dynamics *dyn);
 pg_status system_note_change (pg_system *s);
 /* factor_or_elements.c: in motion, which of both is the cheaper one: bonds have broken; a factor was made;
  * before a solve; after one. */
@@ -257,7 +285,7 @@ void      ways_note_broken (pg_system *s, size_t count);
 void      ways_note_factor (pg_system *s);
 pg_status ways_choose      (pg_system *s, const dynamics *dyn);
 void      ways_count       (pg_system *s, size_t iterations);
-/* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (system.c). */
+/* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (choice.c). */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance);
 /* d becomes the equilibrium at t (refinement.c); *residual relative to the reference force.
  * PG_E_EQUILIBRIUM when it stays above the tolerance. */
@@ -284,7 +312,20 @@ void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
 void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);
 
 /* ---- break_loop.c ------------------------------------------------------------------------------------- */
+struct break_loop;
+/* What grows in place of single bonds (facet_growth.h). */
 typedef struct {
+    void      (*free)    (struct break_loop *b);
+    void      (*forward) (struct break_loop *b, double dt);            /* a time step begins */
+    /* One round at the displacement d; *again: something grew, and there is another equilibrium to be found.
+     * */
+    pg_status (*round)   (struct break_loop *b, pg_state *state, double t, const double *d,
+                          const dynamics *dyn, pg_step *step, int *again);
+    /* At the start of a step; where it is refused. */
+    pg_status (*save)    (struct break_loop *b);
+    void      (*restore) (struct break_loop *b);
+} growth_client;
+typedef struct break_loop {
     pg_system  system;
     double    *utilisation, *factor;                   /* per bond */
     char      *kind;
@@ -301,11 +342,11 @@ typedef struct {
     /* as they were at the start of the step, for one that is refused; saved 1: they are at hand */
     pg_work_balance  start; double strain0, kinetic0; int saved;
     double    *damage;                                 /* with stop.set (6 n) */
-    struct facet_growth *growth;  /* break: facet: tips are judged instead of bonds; else NULL */
+    /* break: facet: tips are judged instead of bonds; else NULL */
+    struct facet_growth *growth; const growth_client *grower;
     /* largest damage of stop.set: now, when it was first looked at */
     double     nearest, nearest0; int looked;
 } break_loop;
-pg_status break_loop_create (break_loop *b);
 void      break_loop_free   (break_loop *b);
 /* The arrays for the utilisation of all bonds, when they are first needed. */
 pg_status break_loop_ready  (break_loop *b);
@@ -318,17 +359,16 @@ double    break_loop_largest  (const break_loop *b, const double *value);
 double    break_loop_smallest (const break_loop *b, const double *value);
 /* 1: bonds are judged in this run: there is a criterion of bonds, and a force that knows how they stand. */
 int       break_loop_judges (const break_loop *b);
-/* The largest utilisation of all bonds; above 1, `over` lists those that may break now. */
-pg_status break_loop_look   (break_loop *b, const pg_state *state, const double *d, double *top);
 /* Bonds with so large a utilisation break in this round. */
 double    break_loop_cut    (const break_loop *b, double top);
 /* rough_round.c: a round in the middle of a cascade by a rough solution. *done 1: `top` and `over` are what
  * they would be of the exact one, but for digits that decide nothing; 0: it has to be solved exactly. */
 pg_status break_loop_rough  (break_loop *b, const pg_state *state, double t, double *d, const dynamics *dyn,
                              double *top, int *done);
-/* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
-pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
-                           double t);
+/* Kills the bonds with measure[i] >= cut, those of a list, ascending, or of all (NULL); logs them with the
+ * given utilisation scale. */
+pg_status break_loop_kill (break_loop *b, pg_state *state, const pg_changes *among, const double *measure,
+                           double cut, double scale, double t);
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
 pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
                        pg_step *step);

@@ -3,8 +3,6 @@
  * spring of WEAK_SPRING of the mean diagonal, so that isolated nodes and loose fragments stay put; the
  * refinement of solutions takes its effect out again wherever the body can carry load. */
 #include "body_parts.h"
-#include "contact.h"
-#include "event_solver.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,35 +20,6 @@ void system_release_matrix (pg_system *s)
     pg_free (f->own_diagonal), pg_free (f->copy);
     f->A = (pg_sparse) { 0 };
     f->own_diagonal = f->copy = NULL, f->owned = 0;
-}
-
-/* Mean of the first diagonal without entries above `most`, N/m; of their logarithms where `most` is infinite
- * (without zeros): the geometric mean. */
-static double mean_of_diagonal (pg_system *s, double most)
-{
-    const pg_subdomain *part = s->problem->cloud.subdomain;
-    double sum = 0, number = 0;
-    int logarithms = isinf (most);
-    for (size_t j = 0; j < s->ndof; j++) {
-        double k = s->direct.diagonal0[j];
-        if (!pg_owns (part, j / (size_t) s->components) || k > most || (logarithms && !(k > 0))) continue;
-        sum += logarithms ? log (k) : k, number++;
-    }
-    sum = system_sum (s, sum), number = system_sum (s, number);
-    return number > 0 ? logarithms ? exp (sum / number) : sum / number : 0;
-}
-
-/* The first diagonal and its mean, N/m: they tell which unknowns have become weak, and how large forces
- * of rounding are. Penalties on a few points, a million times as stiff, are not in the mean. */
-void system_remember_diagonal (pg_system *s, const pg_sparse *K)
-{
-    system_factor *f = &s->direct;
-    const double stiff = 1e3;
-    const pg_operator *op = system_operator (s);
-    if (f->mean_diagonal > 0) return;
-    for (size_t j = 0; K && j < s->ndof; j++) f->diagonal0[j] = K->value[K->start[j + 1] - 1];
-    if (!K) op->diagonal (op->context, f->diagonal0);
-    f->mean_diagonal = mean_of_diagonal (s, stiff * mean_of_diagonal (s, INFINITY));
 }
 
 /* The values that a matrix is made in: of K at rest those of K itself, whose diagonal is kept meanwhile, else
@@ -92,7 +61,8 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
         else if (m == 0 && weak)
             value[q] += f->shift * (gone || first > 1e-9 * f->mean_diagonal ? f->mean_diagonal : now);
     }
-    if (m == 0) loose_matrix (s, K, value);
+    for (size_t j = 0; m == 0 && j < f->props.n; j++)
+        value[K->start[f->props.unknown[j] + 1] - 1] += f->mean_diagonal;
     if (m != 0) system_add_mass_matrix (s, m, K, value);
     /* a point that no evaluation point sees has no consistent mass either */
     for (size_t j = 0; j < s->ndof && m != 0; j++) {
@@ -116,7 +86,7 @@ static void let_all_go (pg_system *s, const dynamics *dyn)
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
-    const pg_sparse *K, *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    const pg_sparse *K, *T = system_basis (s);
     PG_TRY (pg_force_assemble (s->force, s->self, &K));
     pg_sparse full = *K;
     system_remember_diagonal (s, K);
@@ -273,37 +243,15 @@ done:
     return status;
 }
 
-/* ---- solving ------------------------------------------------------------------------------------------- */
-/* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping
- * when K has changed a little. */
-static const double worth_keeping = 15;
+int system_can_factor (const pg_system *s) { return system_has_matrix (s) && s->direct.linear->factors; }
 
-/* Seconds by stored rates: supernodal factorization, triangular solve, K x without a matrix. Never measured:
- * a run must not depend on the clock. */
-double system_factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
-/* Four passes over the factor: two triangular solves, each read twice over a refinement. */
-double system_solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
-/* Factors where K has changed, then two triangular solves. A factor that is dear against its solves is
- * kept as a preconditioner from then on, as a few broken bonds change K little. */
-pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn)
+int system_factors (const pg_system *s)
 {
-    system_factor *f = &s->direct;
-    pg_status status = PG_OK;
-    if (f->stale) PG_TRY (system_factorize (s, dyn));
-    double t0 = pg_seconds ();
-    pg_linear_info info;
-    PG_TRY (f->linear->solve (f->factor, 1, s->balance.reduced, s->balance.delta));
-    f->linear->info (f->factor, &info);
-    s->report->cg_iterations += info.iterations - s->iterative.matrix_iterations;
-    s->iterative.matrix_iterations = info.iterations;
-    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-    int keep = system_operator (s) && strcmp (s->options->linear, "auto") == 0 && !f->indefinite
-               && f->unshifted;
-    if (keep && !(s->contact && s->contact->loose.n)
-        && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) {
-        s->choice.mode = SYSTEM_KEPT_FACTOR;
-        PG_TRY (system_follow (s, dyn));
-    }
-done:
-    return status;
+    return s->choice.mode == SYSTEM_FACTOR || s->choice.mode == SYSTEM_KEPT_FACTOR;
+}
+
+int system_has_factor (const pg_system *s)
+{
+    return s->direct.factor && !s->direct.stale && s->direct.linear->factors
+           && (system_factors (s) || s->choice.mode == SYSTEM_UNDECIDED);
 }

@@ -28,8 +28,6 @@ typedef struct trials {
     double    *excess[2];                              /* fields without what closed faces bear (ndof) */
     int        said;                                   /* a warning that was given */
     pg_nearest *points;                                /* evaluation points, with several materials */
-    /* how often each way was taken, and columns of K^-1 that were solved for: for reports and tests */
-    long       by_columns, by_solves, columns;
     int        never_columns;                          /* tests: 1: solve anew every time */
 } trials;
 pg_status trials_create (trials **out, pg_system *system);             /* the system is borrowed */

@@ -5,28 +5,27 @@
  *
  *     Pi - Pi' = u.(r + df)/2 + r.x/2,    K' x = r,
  *
- * and (K'^-1)_AA = H (I + dK H)^-1 with H = (K^-1)_AA (Woodbury): the factor of the uncut body, one solve
- * with a right-hand side for every unknown of A, and a dense system of that order for each length of the
- * facet. For df = 0 this is -u_A.(I + dK H)^-1 dK u_A/2. All terms are local. Where there is no factor of K
- * (conjugate gradients, supports by elimination), where both terms are much larger than their sum (a cut
- * beside penalties, whose shape functions it changes), or where a part comes loose, the cut body is solved
- * anew, and the release is the difference of both potentials, which is also what tests compare with. */
+ * and (K'^-1)_AA = H (I + dK H)^-1 with H = (K^-1)_AA: the inverse of the uncut body (inverse.h), in which
+ * the columns of every unknown of A are solved for once, takes in stage after stage. For df = 0 this is
+ * -u_A.(I + dK H)^-1 dK u_A/2. All terms are local. Where there is no factor of K (conjugate gradients,
+ * supports by elimination), where both terms are much larger than their sum (a cut beside penalties, whose
+ * shape functions it changes), or where a part comes loose, the cut body is solved anew, and the release is
+ * the difference of both potentials, which is also what tests compare with. */
+#include "inverse.h"
 #include "trial_facet.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* More unknowns than this beside a cut: the cut body is solved anew instead. */
-enum { MOST_COLUMNS = 3000, AT_ONCE = 64 };
 /* Terms that cancel may be this many times as large as their sum; beyond, the cut body is solved anew. */
 static const double most_lost = 30;
 
-/* What one stage of a cut changes, as entries of the upper triangle of K and on the unknowns. */
+/* What one stage of a cut changes: of K beside the stage before it, of forces beside the uncut body. */
 typedef struct {
-    size_t n, cap_row, cap_column, cap_value;
-    long   *row, *column;
-    double *value;                                     /* of dK, N/m */
+    pg_stiffness_change K;
+    int    *node;                                      /* K.node and K.K, owned */
+    double *dK;
     double *r[2];                                      /* residual of every field, N (ndof) */
     double work[3];                                    /* u_a.(r_b + df_b)/2, symmetric, J: 00, 01, 11 */
 } change;
@@ -116,29 +115,40 @@ done:
 static int has_factor (const trials *w)
 {
     const pg_system *s = w->system;
-    int keeps = s->choice.mode == SYSTEM_FACTOR || s->choice.mode == SYSTEM_KEPT_FACTOR;
-    return !w->never_columns && keeps && s->direct.linear->factors && system_has_matrix (s)
-           && !(s->force->basis && s->force->basis (s->self));
+    return !w->never_columns && system_factors (s) && system_can_factor (s) && !system_basis (s);
 }
 
 /* Entries of K that a stage has changed: the rows of touched nodes were computed anew in the same order, so
- * that all others have kept their bits. */
-static pg_status compare_matrix (trials *w, change *c)
+ * that all others have kept their bits. K of the next stage is compared with that of this one. *fits 0: too
+ * many. */
+static pg_status compare_matrix (trials *w, const inverse *v, change *c, int *fits)
 {
     pg_status status = PG_OK;
     const pg_system *s = w->system;
     const pg_sparse *K;
+    size_t m = (size_t) s->components, n = 0;
+    size_t *at = NULL;
     PG_TRY (pg_force_assemble (s->force, s->self, &K));
+    PG_ALLOC (at, s->problem->cloud.n);
+    for (size_t j = 0; j < s->ndof; j++)
+        for (long q = K->start[j]; q < K->start[j + 1]; q++)
+            if (K->value[q] != w->K[q]) at[j / m] = at[(size_t) K->row[q] / m] = 1;
+    for (size_t i = 0; i < s->problem->cloud.n; i++) if (at[i]) at[i] = n++;
+    *fits = inverse_has_room (v, n * m);
+    if (!*fits) goto done;
+    PG_ALLOC (c->node, n);
+    PG_ALLOC (c->dK, n * m * n * m);
+    c->K = (pg_stiffness_change) { .known = 1, .n = n, .width = n * m, .node = c->node, .K = c->dK };
     for (size_t j = 0; j < s->ndof; j++)
         for (long q = K->start[j]; q < K->start[j + 1]; q++) {
             if (K->value[q] == w->K[q]) continue;
-            PG_GROW (c->row, c->cap_row, c->n + 1);
-            PG_GROW (c->column, c->cap_column, c->n + 1);
-            PG_GROW (c->value, c->cap_value, c->n + 1);
-            c->row[c->n] = K->row[q], c->column[c->n] = (long) j;
-            c->value[c->n++] = K->value[q] - w->K[q];
+            size_t i = (size_t) K->row[q], a = at[i / m] * m + i % m, b = at[j / m] * m + j % m;
+            c->node[at[i / m]] = (int) (i / m), c->node[at[j / m]] = (int) (j / m);
+            c->dK[a * n * m + b] = c->dK[b * n * m + a] = K->value[q] - w->K[q];
+            w->K[q] = K->value[q];
         }
 done:
+    pg_free (at);
     return status;
 }
 
@@ -164,16 +174,13 @@ done:
     return status;
 }
 
-/* All stages: what each changes of K, and the residuals. */
-static pg_status compare_stages (trials *w, const pg_state *state, const trial_fields *f, size_t n,
-                                 const pg_changes *cut, change *c)
+/* K, residuals and loads of the body as it is. */
+static pg_status remember_uncut (trials *w, const trial_fields *f)
 {
-    pg_status status = PG_OK, back;
-    pg_system *s = w->system;
-    double reference;
-    if (s->direct.stale) PG_TRY (system_factorize (s, NULL));
-    s->choice.extra_cost = 0;
+    pg_status status = PG_OK;
+    const pg_system *s = w->system;
     const pg_sparse *K;
+    double reference;
     PG_TRY (pg_force_assemble (s->force, s->self, &K));
     if (!w->K) PG_ALLOC (w->K, (size_t) K->start[s->ndof]);
     memcpy (w->K, K->value, (size_t) K->start[s->ndof] * sizeof *w->K);
@@ -181,203 +188,122 @@ static pg_status compare_stages (trials *w, const pg_state *state, const trial_f
         PG_TRY (s->force->balance (s->self, f->t[a], f->d[a], w->residual[a], &reference));
         PG_TRY (s->force->balance (s->self, f->t[a], w->zero, w->load[a], &reference));
     }
-    for (size_t k = 0; k < n && status == PG_OK; k++) {
-        status = cut_stage (w, &cut[k]);
-        if (status == PG_OK) status = compare_matrix (w, &c[k]);
-        if (status == PG_OK) status = compare_forces (w, f, &c[k]);
+done:
+    return status;
+}
+
+/* The inverse of the body with this stage cut: the unknowns A are those of dK, and those whose loads have
+ * changed. *fits 0: too many. */
+static pg_status take_stage (const trials *w, inverse *v, const trial_fields *f, const change *c, int *fits)
+{
+    pg_status status = PG_OK;
+    const pg_system *s = w->system;
+    double largest[2] = { 0 }, t0 = pg_seconds ();
+    size_t *fresh = NULL, n = 0;
+    PG_TRY (inverse_change (v, &c->K));
+    PG_ALLOC (fresh, s->ndof);
+    for (int a = 0; a < f->n; a++)
+        for (size_t i = 0; i < s->ndof; i++) largest[a] = fmax (largest[a], fabs (c->r[a][i]));
+    for (size_t i = 0; i < s->ndof; i++) {
+        int loaded = 0;
+        for (int a = 0; a < f->n; a++) loaded |= fabs (c->r[a][i]) > 1e-12 * largest[a];
+        if (loaded && !v->touched.at[i]) fresh[n++] = i;
     }
-    back = restore (w, state, n, cut);
+    *fits = inverse_has_room (v, n);
+    if (*fits) PG_TRY (inverse_grow (v, n, fresh));
+done:
+    pg_free (fresh);
+    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    return status;
+}
+
+/* The energies of one stage. 0: its dense system is singular, to rounding. */
+static int stage_energies (inverse *v, const trial_fields *f, const change *c, double *y, double *x,
+                           trial_form *out)
+{
+    const touched_unknowns *u = &v->touched;
+    size_t n = u->t;
+    for (int a = 0; a < f->n; a++)
+        for (size_t i = 0; i < n; i++) y[(size_t) a * n + i] = c->r[a][u->dof[i]];
+    if (n && !inverse_substitute (v, (size_t) f->n, y)) return 0;
+    for (int b = 0; b < f->n; b++) {
+        memset (x, 0, n * sizeof *x);
+        inverse_add_H (v, y + (size_t) b * n, x);
+        for (int a = 0; a <= b; a++) {
+            double sum = 0;
+            for (size_t i = 0; i < n; i++) sum += c->r[a][u->dof[i]] * x[i];
+            out->value[a + b] = c->work[a + b] + 0.5 * sum;
+        }
+    }
+    return 1;
+}
+
+/* NAN where a part comes loose: the dense system is singular then. With contact, where the cut body is not
+ * solved anew, springs too soft to matter hold it. */
+static pg_status stage_release (const trials *w, inverse *v, const trial_fields *f, const change *c,
+                                trial_form *out)
+{
+    const double singular = 1e-9;                      /* H has as many digits less beside penalties */
+    pg_status status = PG_OK;
+    size_t n = v->touched.t;
+    double *y = NULL, *x = NULL;
+    PG_ALLOC (y, n * (size_t) f->n + 1);
+    PG_ALLOC (x, n + 1);
+    if (stage_energies (v, f, c, y, x, out) && !(n && v->touched.pivots < singular)) goto done;
+    for (int k = 0; k < 3; k++) out->value[k] = NAN;
+    if (!w->system->contact) goto done;
+    inverse_hold (v, v->base.bare);
+    if (!stage_energies (v, f, c, y, x, out))
+        PG_FAIL (PG_E_SINGULAR, "the matrix of a trial cut beside %zu unknowns is singular", n);
+    inverse_hold (v, 0);
+done:
+    pg_free (y), pg_free (x);
+    return status;
+}
+
+/* Cuts one stage. *unfit: more unknowns are touched than this way is good for, or digits were lost. */
+static pg_status try_stage (trials *w, inverse *v, const trial_fields *f, const pg_changes *cut,
+                            trial_form *release, int *unfit)
+{
+    pg_status status = PG_OK;
+    change c = { .node = NULL };
+    int fits;
+    PG_TRY (cut_stage (w, cut));
+    PG_TRY (compare_matrix (w, v, &c, &fits));
+    if (fits) PG_TRY (compare_forces (w, f, &c));
+    if (fits) PG_TRY (take_stage (w, v, f, &c, &fits));
+    if (fits) PG_TRY (stage_release (w, v, f, &c, release));
+    for (int a = 0; a < f->n && fits && !w->system->contact; a++)
+        *unfit |= !(fabs (c.work[2*a]) <= most_lost * fabs (release->value[2*a]));
+    *unfit |= !fits;
+done:
+    pg_free (c.node), pg_free (c.dK), pg_free (c.r[0]), pg_free (c.r[1]);
+    return status;
+}
+
+/* All stages; *unfit: no result. */
+static pg_status by_columns (trials *w, const pg_state *state, const trial_fields *f, size_t n,
+                             const pg_changes *cut, trial_form *release, int *unfit)
+{
+    pg_status status = PG_OK, back;
+    pg_system *s = w->system;
+    inverse *v = NULL;
+    size_t tried = 0;
+    *unfit = 0;
+    if (s->direct.stale) PG_TRY (system_factorize (s, NULL));
+    s->choice.extra_cost = 0;
+    PG_TRY (remember_uncut (w, f));
+    PG_TRY (inverse_create (&v, s, INVERSE_BLOCK));
+    PG_TRY (inverse_renew (v, 1, 0, 0));
+    v->base.bare = WEAK_SPRING * s->direct.mean_diagonal;
+    for (; tried < n && status == PG_OK && !*unfit; tried++)
+        status = try_stage (w, v, f, &cut[tried], &release[tried], unfit);
+    back = restore (w, state, tried, cut);
     if (status == PG_OK) status = back;
     /* K is what it was: the factor stays */
     if (s->force->revision) s->direct.revision = s->force->revision (s->self);
 done:
-    return status;
-}
-
-/* The unknowns beside the cut of one stage, ascending: those of dK, and those whose loads have changed. */
-static size_t beside (const pg_system *s, const trial_fields *f, const change *c, unsigned char *mark,
-                      size_t *list)
-{
-    double largest = 0;
-    size_t n = 0;
-    memset (mark, 0, s->ndof);
-    for (size_t e = 0; e < c->n; e++) mark[c->row[e]] = mark[c->column[e]] = 1;
-    for (int a = 0; a < f->n; a++) {
-        largest = 0;
-        for (size_t i = 0; i < s->ndof; i++) largest = fmax (largest, fabs (c->r[a][i]));
-        for (size_t i = 0; i < s->ndof; i++) if (fabs (c->r[a][i]) > 1e-12 * largest) mark[i] = 1;
-    }
-    for (size_t i = 0; i < s->ndof; i++) if (mark[i]) list[n++] = i;
-    return n;
-}
-
-/* H = (K^-1)_AA, column by column (m x m). */
-static pg_status inverse_block (trials *w, size_t m, const size_t *list, double *H)
-{
-    pg_status status = PG_OK;
-    pg_system *s = w->system;
-    double *b = NULL, *x = NULL, t0 = pg_seconds ();
-    PG_ALLOC (b, AT_ONCE * s->ndof);
-    PG_ALLOC (x, AT_ONCE * s->ndof);
-    for (size_t first = 0; first < m; first += AT_ONCE) {
-        size_t count = m - first < AT_ONCE ? m - first : AT_ONCE;
-        for (size_t k = 0; k < count; k++) b[k * s->ndof + list[first + k]] = 1;
-        PG_TRY (s->direct.linear->solve (s->direct.factor, count, b, x));
-        for (size_t k = 0; k < count; k++) {
-            b[k * s->ndof + list[first + k]] = 0;
-            for (size_t i = 0; i < m; i++) H[(first + k) * m + i] = x[k * s->ndof + list[i]];
-        }
-    }
-    w->columns += (long) m, w->by_columns++;
-done:
-    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-    pg_free (b), pg_free (x);
-    return status;
-}
-
-/* What one stage leaves, on its own unknowns: numbers of them in A, their part of H, the matrix I + dK H. */
-typedef struct {
-    const trials *w;
-    const change *c;
-    size_t n;
-    const size_t *list;                                /* of the stage -> unknown */
-    size_t *own;                                       /* in A -> of the stage */
-    const size_t *place;                               /* unknown -> in A */
-    double *h, *M;                                     /* n x n, by columns */
-    int    *pivot;                                     /* of M (n) */
-    unsigned char *bare;                               /* no stiffness is left (n) */
-} stage;
-
-/* M = I + (dK + shift) H. The shift is for unknowns that the cut leaves without stiffness; `all`: for all of
- * them, as a part comes loose. */
-static void fill_matrix (const stage *g, double shift, int all)
-{
-    const change *c = g->c;
-    for (size_t j = 0; j < g->n; j++) {
-        double *column = g->M + j * g->n;
-        memset (column, 0, g->n * sizeof *column);
-        for (size_t e = 0; e < c->n; e++) {
-            size_t p = g->own[g->place[c->row[e]]], q = g->own[g->place[c->column[e]]];
-            column[p] += c->value[e] * g->h[j * g->n + q];
-            if (p != q) column[q] += c->value[e] * g->h[j * g->n + p];
-        }
-        column[j] += 1;
-    }
-    for (size_t i = 0; i < g->n; i++) {
-        if (!all && !g->bare[i]) continue;
-        for (size_t j = 0; j < g->n; j++) g->M[j * g->n + i] += shift * g->h[j * g->n + i];
-    }
-}
-
-/* Unknowns of the stage whose stiffness the cut takes away. */
-static void find_bare (const stage *g)
-{
-    const pg_system *s = g->w->system;
-    const pg_sparse *K = pg_force_matrix (s->force, s->self);
-    for (size_t e = 0; e < g->c->n; e++) {
-        long i = g->c->row[e];
-        double before = g->w->K[K->start[i + 1] - 1];  /* the diagonal is last in its column */
-        if (i == g->c->column[e] && !(before + g->c->value[e] > 1e-12 * before))
-            g->bare[g->own[g->place[i]]] = 1;
-    }
-}
-
-/* y = M^-1 r on the unknowns of the stage, and the energies. 0: M is singular, to rounding. */
-static int stage_energies (const stage *g, int fields, double shift, int all, double *y, trial_form *out)
-{
-    const double singular = 1e-9;                      /* H has as many digits less beside penalties */
-    double least = INFINITY, most = 0;
-    size_t n = g->n;
-    fill_matrix (g, shift, all);
-    for (size_t i = 0; i < n * n; i++) most = fmax (most, fabs (g->M[i]));
-    if (!pg_dense_factor (n, g->M, n, g->pivot)) return 0;
-    for (size_t i = 0; i < n; i++) {
-        least = fmin (least, fabs (g->M[i * n + i]));
-        for (int a = 0; a < fields; a++) y[(size_t) a * n + i] = g->c->r[a][g->list[i]];
-    }
-    if (!all && least < singular * most) return 0;
-    pg_dense_substitute (n, g->M, n, g->pivot, (size_t) fields, y, n);
-    for (int a = 0, k = 0; a < fields; a++)
-        for (int b = a; b < fields; b++, k++) {
-            double sum = 0;
-            for (size_t j = 0; j < n; j++)
-                for (size_t i = 0; i < n; i++)
-                    sum += g->c->r[a][g->list[i]] * g->h[j * n + i] * y[(size_t) b * n + j];
-            out->value[k] = g->c->work[k] + 0.5 * sum;
-        }
-    return 1;
-}
-
-/* The energies of one stage; NAN where a part comes loose: M is singular then. With contact, where the cut
- * body is not solved anew, springs too soft to matter hold it. */
-static pg_status stage_release (const trials *w, const trial_fields *f, const change *c, size_t n,
-                                const size_t *list, const size_t *place, size_t m, const double *H,
-                                trial_form *out)
-{
-    pg_status status = PG_OK;
-    stage g = { .w = w, .c = c, .n = n, .list = list, .place = place };
-    double *y = NULL, weak = WEAK_SPRING * w->system->direct.mean_diagonal;
-    PG_ALLOC (g.h, n * n);
-    PG_ALLOC (g.M, n * n);
-    PG_ALLOC (y, n * (size_t) f->n);
-    PG_ALLOC (g.own, m);
-    PG_ALLOC (g.bare, n);
-    PG_ALLOC (g.pivot, n);
-    for (size_t i = 0; i < n; i++) g.own[place[list[i]]] = i;
-    for (size_t j = 0; j < n; j++)
-        for (size_t i = 0; i < n; i++) g.h[j * n + i] = H[place[list[j]] * m + place[list[i]]];
-    find_bare (&g);
-    if (n == 0 || stage_energies (&g, f->n, weak, 0, y, out)) goto done;
-    for (int k = 0; k < 3; k++) out->value[k] = NAN;
-    if (w->system->contact && !stage_energies (&g, f->n, weak, 1, y, out))
-        PG_FAIL (PG_E_SINGULAR, "the matrix of a trial cut beside %zu unknowns is singular", n);
-done:
-    pg_free (g.h), pg_free (g.M), pg_free (y), pg_free (g.own), pg_free (g.bare), pg_free (g.pivot);
-    return status;
-}
-
-static void change_clear (change *c)
-{
-    pg_free (c->row), pg_free (c->column), pg_free (c->value), pg_free (c->r[0]), pg_free (c->r[1]);
-}
-
-/* *unfit: the cut touches more unknowns than this way is good for, or digits were lost: no result. */
-static pg_status by_columns (trials *w, const pg_state *state, const trial_fields *f, size_t n,
-                             const pg_changes *cut, trial_form *release, int *unfit)
-{
-    pg_status status = PG_OK;
-    const pg_system *s = w->system;
-    change *c = NULL;
-    unsigned char *mark = NULL, *any = NULL;
-    size_t *list = NULL, *all = NULL, *place = NULL, m = 0;
-    double *H = NULL;
-    *unfit = 0;
-    PG_ALLOC (c, n);
-    PG_ALLOC (mark, s->ndof);
-    PG_ALLOC (any, s->ndof);
-    PG_ALLOC (list, s->ndof);
-    PG_ALLOC (all, s->ndof);
-    PG_ALLOC (place, s->ndof);
-    PG_TRY (compare_stages (w, state, f, n, cut, c));
-    for (size_t k = 0; k < n; k++) {
-        size_t count = beside (s, f, &c[k], mark, list);
-        for (size_t i = 0; i < count; i++) any[list[i]] = 1;
-    }
-    for (size_t i = 0; i < s->ndof; i++) if (any[i]) place[i] = m, all[m++] = i;
-    *unfit = m > MOST_COLUMNS;
-    if (*unfit) goto done;
-    PG_ALLOC (H, m * m);
-    PG_TRY (inverse_block (w, m, all, H));
-    for (size_t k = 0; k < n; k++) {
-        size_t count = beside (s, f, &c[k], mark, list);
-        PG_TRY (stage_release (w, f, &c[k], count, list, place, m, H, &release[k]));
-        for (int a = 0; a < f->n; a++)
-            *unfit |= !s->contact
-                      && !(fabs (c[k].work[2*a]) <= most_lost * fabs (release[k].value[2*a]));
-    }
-done:
-    for (size_t k = 0; c && k < n; k++) change_clear (&c[k]);
-    pg_free (c), pg_free (mark), pg_free (any), pg_free (list), pg_free (all), pg_free (place), pg_free (H);
+    inverse_free (&v);
     return status;
 }
 
@@ -455,7 +381,6 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
         }
         form_of (f, energy, &release[k]);
     }
-    w->by_solves += (long) n;
     back = restore (w, state, n, cut);
     if (status == PG_OK) status = back;
     /* whatever factor or preconditioner there is may be that of the cut body */

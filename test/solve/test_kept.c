@@ -204,7 +204,7 @@ static void a_factor_that_follows_goes_on_bit_by_bit (void **state)
     memory m = { .n = 0 };
     for (int k = 0; k < 4; ) advance (&a), k += a.step.nbroken > 0;
     check_ok (walk (&m, &a, 0));
-    assert_true (*(const long *) (const void *) item_of (&m, "event_solver.touched")->value > 0);
+    assert_true (*(const long *) (const void *) item_of (&m, "inverse.touched")->value > 0);
     check_ok (walk (&m, &b, 1));
     for (int k = 0; k < 3 && !pg_solver_done (a.solver, a.state); k += a.step.nbroken > 0) {
         advance (&a), advance (&b);
