@@ -18,7 +18,8 @@ void body_parts_clear (body_parts *parts)
     memset (parts, 0, sizeof *parts);
 }
 
-void body_part_move (const body_part *part, int dim, const double *x, const double *m, double *u)
+/* Displacement of the point at x by such a motion. */
+static void move_by (const body_part *part, int dim, const double *x, const double *m, double *u)
 {
     double r[3] = { 0 }, size = part->size > 0 ? part->size : 1;
     for (int k = 0; k < dim; k++) r[k] = (x[k] - part->middle[k]) / size;
@@ -29,7 +30,7 @@ void body_part_move (const body_part *part, int dim, const double *x, const doub
 void body_part_shift (const pg_system *s, const body_part *part, const double *x, const double *m, double *u)
 {
     int dim = s->problem->dim;
-    body_part_move (part, dim, x, m, u);
+    move_by (part, dim, x, m, u);
     for (int k = dim; k < s->components; k++)
         u[k] = m[dim == 2 ? 5 : k] * s->problem->cloud.h / part->size;
 }
@@ -169,7 +170,7 @@ static void resist (const body_part *part, int dim, const pg_load *load, const d
             rigid_motion m = { 0 };
             double u[3];
             m[which[a]] = 1;
-            body_part_move (part, dim, x, m, u);
+            move_by (part, dim, x, m, u);
             row[a] = turns ? m[dim == 2 ? 5 : 3 + k] : u[k];
         }
         for (size_t a = 0; a < n; a++) for (size_t b = 0; b < n; b++) A[a * n + b] += row[a] * row[b];
@@ -214,7 +215,7 @@ static pg_status square_motions (const body_parts *out, const pg_problem *p, dou
         for (size_t a = 0; a < n; a++) {
             rigid_motion m = { 0 };
             m[which[a]] = 1;
-            body_part_move (&out->part[out->of[i]], p->dim, p->cloud.x + i * dim, m, u[a]);
+            move_by (&out->part[out->of[i]], p->dim, p->cloud.x + i * dim, m, u[a]);
         }
         for (size_t a = 0; a < n; a++)
             for (size_t b = 0; b < n; b++)

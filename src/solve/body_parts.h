@@ -26,8 +26,6 @@ typedef struct body_parts {
 /* At the last refresh. All ranks call. Of a force that does not tell what it joins there are none. */
 pg_status body_parts_find  (body_parts *out, const pg_system *s);
 void      body_parts_clear (body_parts *parts);
-/* Displacement of the point at x by such a motion. */
-void      body_part_move (const body_part *part, int dim, const double *x, const double *motion, double *u);
 /* Displacement, m, of all unknowns of the point at x by a rigid motion of its part, with rotations of its own
  * (times the spacing, as micropolar forces have them). u: 6 */
 void      body_part_shift (const pg_system *s, const body_part *part, const double *x, const double *motion,
@@ -38,11 +36,10 @@ void      body_part_place (const pg_problem *p, const body_part *part, char *tex
 void      body_part_way   (const pg_problem *p, const body_part *part, const double *motion, char *text,
                            size_t size);
 
-/* PG_E_EQUILIBRIUM with the part, its free directions and what its loads leave unbalanced along them, if
- * there is one whose loads at t, forces of contact at hand included, do not balance each other. */
-pg_status body_parts_judge (pg_system *s, double t);
-/* Judges the loads before the first step as body_parts_judge does (PG_E_EQUILIBRIUM); parts that are free to
- * move under loads that balance are told of, and remembered (pg_system.floating). */
+/* Before the first step: PG_E_EQUILIBRIUM with the part, its free directions and what its loads leave
+ * unbalanced along them, if there is one whose loads at t, forces of contact at hand included, do not balance
+ * each other; parts that are free to move under loads that balance are told of, and remembered
+ * (pg_system.floating). */
 pg_status body_parts_begin (pg_system *s, double t);
 /* Parts that are remembered go back to where their mean displacement and rotation are none: of all equilibria
  * that differ by their motions the one that does not depend on what has solved for it. */

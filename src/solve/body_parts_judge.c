@@ -288,16 +288,6 @@ done:
     return status;
 }
 
-pg_status body_parts_judge (pg_system *s, double t)
-{
-    pg_status status = PG_OK;
-    along_motions w = { 0 };
-    PG_TRY (judge (&w, s, t));
-done:
-    clear (&w);
-    return status;
-}
-
 pg_status body_parts_begin (pg_system *s, double t)
 {
     system_balance *b = &s->balance;
@@ -376,6 +366,7 @@ done:
 pg_status body_parts_check (pg_system *s, double t, const double *d, int loads)
 {
     pg_status status = PG_OK;
+    along_motions w = { 0 };
     const pg_problem *p = s->problem;
     size_t components = (size_t) s->components, at = 0;
     double low[3], high[3], reach[4] = { 0 }, far = 0, length = 0;
@@ -393,7 +384,7 @@ pg_status body_parts_check (pg_system *s, double t, const double *d, int loads)
     PG_TRY (pg_ranks_most (4, reach));
     for (int k = 0; k < p->dim; k++) length = fmax (length, reach[k]);
     if (!(length > 0) || reach[3] <= length) goto done;
-    if (loads) PG_TRY (body_parts_judge (s, t));
+    if (loads) PG_TRY (judge (&w, s, t));
     if (reach[3] <= NOWHERE * length) goto done;
     const double *x = p->cloud.x + at * (size_t) p->dim;
     if (far < reach[3])
@@ -407,6 +398,7 @@ pg_status body_parts_check (pg_system *s, double t, const double *d, int loads)
              "(newmark)",
              x[0], p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0, far, far / length);
 done:
+    clear (&w);
     return status;
 }
 

@@ -4,7 +4,6 @@
  * static and newmark. */
 #include "solve.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Made for the first look at all bonds, so that a run in which nothing can break never has it: room for the

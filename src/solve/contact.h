@@ -232,7 +232,7 @@ pg_status contact_route_ahead (pg_system *s, double *base, double *unit, double 
  * the last accepted ones all the way. contact_route_behind takes up the path behind a change of status. */
 pg_status contact_route_back   (pg_system *s, double *base, double *unit, double *residual);
 pg_status contact_route_behind (pg_system *s);
-/* t at which the stretch ends; 1: at its beginning forces and gaps have leapt. */
+/* t at which the stretch ends, without contact never; 1: at its beginning forces and gaps have leapt. */
 double contact_route_end     (const pg_system *s);
 int    contact_route_leapt   (const pg_system *s);
 pg_status contact_route_go   (pg_system *s, double t);         /* to t in the stretch */

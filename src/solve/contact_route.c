@@ -306,8 +306,7 @@ done:
 
 double contact_route_end (const pg_system *s)
 {
-    const contact_route *r = &s->contact->route;
-    return r->from + r->track.end;
+    return s->contact ? s->contact->route.from + s->contact->route.track.end : INFINITY;
 }
 
 int contact_route_leapt (const pg_system *s) { return s->contact->route.track.leapt; }

@@ -73,8 +73,6 @@ void event_solver_at (event_solver *e, double first, double second)
     }
 }
 
-double event_solver_residual (const event_solver *e) { return e->residual; }
-
 /* ---- bases --------------------------------------------------------------------------------------------- */
 /* The residual of u = 0 at each load factor: what loads and prescribed values put in, N. */
 static pg_status constant_forces (event_solver *e, double *const *out)

@@ -77,8 +77,6 @@ pg_status event_solver_full   (event_solver *e, int which, double *u);
 /* Displacement u of a case (ndof); *residual: by the force itself, over the reference force. Above `enough` u
  * and the base are corrected once; of the block's events no displacement may be asked for then: flush it. */
 pg_status event_solver_settle (event_solver *e, int which, double enough, double *u, double *residual);
-/* What the last update left unbalanced on the touched unknowns, over the reference force of the base. */
-double    event_solver_residual (const event_solver *e);
 
 /* ---- blocks of events ---------------------------------------------------------------------------------- */
 /* Forgets the events of the block, those since the base or the last flush (at most EVENT_MOST); the solution

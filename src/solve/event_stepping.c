@@ -47,7 +47,7 @@ static pg_status solve_by_engine (event_stepping *e)
     if (outcome == INVERSE_SAME) return PG_OK;
     if (outcome != INVERSE_LOST) {
         for (int c = 0; c < (e->base ? 2 : 1); c++) PG_TRY (event_solver_full (e->engine, c, u[c]));
-        e->unit_residual = fmax (e->engine_residual, event_solver_residual (e->engine));
+        e->unit_residual = fmax (e->engine_residual, e->engine->residual);
     }
     if (outcome == INVERSE_TAKEN) return PG_OK;
     PG_TRY (event_solver_base (e->engine, u, &e->engine_residual));
@@ -111,11 +111,6 @@ done:
     return status;
 }
 
-void event_move (const pg_solver *s, pg_state *state, double factor)
-{
-    event_displacement (s, factor, state->d);
-}
-
 /* A displacement that was tried in vain may be anything: the next attempt begins with that of the state. The
  * work balance at hand is not that of `unit` any more. */
 void event_equilibrium_lost (pg_solver *s, const pg_state *state)
@@ -169,17 +164,12 @@ done:
     return status;
 }
 
-int event_no_equilibrium (pg_status solved)
-{
-    return solved == PG_E_EQUILIBRIUM || solved == PG_E_NOT_SPD || solved == PG_E_SINGULAR;
-}
-
 /* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and given
  * by the step that cannot be made. */
 int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
 {
     event_stepping *e = events_of (s);
-    if (!event_no_equilibrium (now)) return 0;
+    if (!system_no_equilibrium (now)) return 0;
     e->ended = now;
     snprintf (e->why, sizeof e->why, "after event %ld at load factor %.6g: %s", state->events, factor,
               pg_last_error ());
@@ -297,7 +287,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     }
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
-    if (e->base) event_move (s, state, factor);
+    if (e->base) event_displacement (s, factor, state->d);
     PG_TRY (event_account (s, state, factor, 1));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &stiff));
@@ -363,11 +353,31 @@ pg_status event_rest (pg_solver *s, pg_state *state, double factor)
     pg_status status = PG_OK;
     double stiff;
     events_of (s)->balance_fresh = 0;
-    event_move (s, state, factor);
+    event_displacement (s, factor, state->d);
     PG_TRY (event_account (s, state, factor, 1));
     take_reactions (s, factor);
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));
+done:
+    return status;
+}
+
+/* ---- growth by facets ---------------------------------------------------------------------------------- */
+/* The measurement for the equilibria at hand, unless there is one. */
+pg_status event_measure (pg_solver *s, const pg_state *state)
+{
+    const event_stepping *e = events_of (s);
+    if (s->break_loop.growth->fresh) return PG_OK;
+    return facet_measure (&s->break_loop, state, e->base, e->unit, stage_end (s));
+}
+
+/* Proportional loads: everything grows with the load factor. */
+pg_status event_next_growth (pg_solver *s, const pg_state *state, double *next)
+{
+    pg_status status = PG_OK;
+    PG_TRY (event_measure (s, state));
+    double top = facet_utilisation (&s->break_loop, state, 1);
+    *next = top > 0 ? 1 / top : INFINITY;
 done:
     return status;
 }
@@ -384,7 +394,7 @@ static pg_status aim_in_proportion (pg_solver *s, pg_state *state, double level,
     double next = INFINITY;
     if (!ahead_waits (e->ahead)) PG_TRY (ahead_look (s, state, level));
     double t0 = pg_seconds ();
-    if (b->growth) PG_TRY (facet_next (s, state, &next));
+    if (b->growth) PG_TRY (event_next_growth (s, state, &next));
     else if (ahead_waits (e->ahead)) next = ahead_factor (e->ahead, &step->utilisation);
     else if (break_loop_judges (b)) {
         PG_TRY (break_loop_ready (b));
@@ -407,7 +417,7 @@ static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *s
     event_stepping *e = events_of (s);
     pg_system *sys = &s->break_loop.system;
     int changes = e->base && sys->contact;
-    event_move (s, state, factor);
+    event_displacement (s, factor, state->d);
     state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
     if (changes) PG_TRY (contact_route_go (sys, factor));
@@ -459,7 +469,8 @@ static pg_status to_next_event (pg_solver *s, pg_state *state, pg_step *step)
     if (!ahead_waits (e->ahead)) PG_TRY (look_over (s, state, factor, breaks, &scale, step));
     if (e->base && !stops) PG_TRY (affine_meets (s, state, s->reaction, &stops));
     if (breaks && !stops)
-        PG_TRY (b->growth ? facet_event (s, state, factor, step) : break_at (s, state, factor, scale, step));
+        PG_TRY (b->grower ? b->grower->event (s, state, factor, step)
+                          : break_at (s, state, factor, scale, step));
     if (start) step->level = 1;
     else if (!(level > factor)) take_level (s, state, step);
     event_limit (s, state, factor);

@@ -37,8 +37,6 @@ void      event_ends  (const pg_solver *s, const pg_state *state, pg_progress *o
 
 /* The equilibria for the bonds that live now: at load factor 1, of affine loads also at 0. */
 pg_status event_solve  (pg_solver *s);
-/* The displacement at a load factor. */
-void      event_move   (const pg_solver *s, pg_state *state, double factor);
 /* Work per squared load factor, of what grows with it: a stiffness under displacements, a compliance under
  * forces. After break_loop_account of the equilibria at hand. */
 pg_status event_secant (pg_solver *s, double *out);
@@ -77,17 +75,15 @@ pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
 pg_status affine_stay (pg_solver *s, pg_state *state);
 pg_status affine_account (pg_solver *s, pg_state *state, double end);
 
-/* break: facet (facet_events.c): the measurement of tips is that of the equilibria at hand; proportional
- * loads: the load factor of the next growth (INFINITY: none); one event. */
-pg_status facet_ready  (pg_solver *s, const pg_state *state);
-pg_status facet_next   (pg_solver *s, const pg_state *state, double *next);
-pg_status facet_event  (pg_solver *s, pg_state *state, double factor, pg_step *step);
-void      event_displacement (const pg_solver *s, double factor, double *d);
+/* break: facet: the measurement of tips is that of the equilibria at hand; proportional loads: the load
+ * factor of the next growth (INFINITY: none). */
+pg_status event_measure (pg_solver *s, const pg_state *state);
+pg_status event_next_growth (pg_solver *s, const pg_state *state, double *next);
+void      event_displacement (const pg_solver *s, double factor, double *d);         /* at a load factor */
 /* What stands for the equilibria before they are solved anew: what the state is. */
 void      event_equilibrium_lost (pg_solver *s, const pg_state *state);
 /* At rest at this factor, once more: displacement, work balance, reactions; may end the run. */
 pg_status event_rest   (pg_solver *s, pg_state *state, double factor);
-int       event_no_equilibrium (pg_status solved);     /* this outcome says so */
 /* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
 int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
 /* Ends the run when the crack has arrived at stop.set, or the body has separated. */

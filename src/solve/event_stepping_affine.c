@@ -27,7 +27,7 @@ static pg_status look (pg_solver *s, pg_state *state, double factor, double *uti
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     double t0 = pg_seconds ();
-    event_move (s, state, factor);
+    event_displacement (s, factor, state->d);
     if (b->growth) {
         *top = facet_utilisation (b, state, factor - stage_start (s));
         goto done;
@@ -150,11 +150,6 @@ done:
     return status;
 }
 
-static double stretch_end (const pg_solver *s)
-{
-    return contact_of (s) ? contact_route_end (&s->break_loop.system) : INFINITY;
-}
-
 /* Back from a facet that lets the crack not rest: down in total form from where the state is to the first
  * stretch in which it rests, or the start of the stage. *in: where it rests, *out: where it does not, both in
  * the stretch at hand. account: work of all changes on the way; else they are marked. */
@@ -170,13 +165,13 @@ static pg_status stretches_back (pg_solver *s, pg_state *state, int account, dou
         PG_TRY (contact_route_back (sys, e->base, e->unit, &e->unit_residual));
         double low = fmax (start, contact_route_end (sys));
         s->break_loop.growth->fresh = 0;
-        PG_TRY (facet_ready (s, state));
+        PG_TRY (event_measure (s, state));
         PG_TRY (look (s, state, *out, s->break_loop.factor, &here));
         PG_TRY (look (s, state, low, s->break_loop.factor, &there));
         if ((*found = there <= 1)) *in = low;
         else PG_TRY (search (s, state, low, *out, there, here, in, found));
         if (*found) break;
-        event_move (s, state, low);
+        event_displacement (s, low, state->d);
         PG_TRY (contact_route_go (sys, low));
         if (account) PG_TRY (event_account (s, state, low, 0));
         PG_TRY (contact_route_mark (sys));
@@ -218,7 +213,7 @@ static pg_status rest_below (pg_solver *s, pg_state *state, double *factor, int 
     }
     PG_TRY (back_to_mark (s, state, 0, 1));
     PG_TRY (stretch_ahead (s, &leapt));
-    PG_TRY (facet_ready (s, state));
+    PG_TRY (event_measure (s, state));
 done:
     return status;
 }
@@ -258,13 +253,13 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, int arrive
     events_of (s)->driven = 0, events_of (s)->bears = 1;
     PG_TRY (stretch_ahead (s, &leapt));
     if (leapt) {
-        event_move (s, state, now);
+        event_displacement (s, now, state->d);
         PG_TRY (event_account (s, state, now, 0));
     }
-    level = fmin (level, stretch_end (s));
+    level = fmin (level, contact_route_end (&s->break_loop.system));
     *breaks = 0, *factor = state->step == 0 ? now : level;
     if (!b->growth && !break_loop_judges (b)) goto done;
-    if (b->growth) PG_TRY (facet_ready (s, state));
+    if (b->growth) PG_TRY (event_measure (s, state));
     else PG_TRY (break_loop_ready (b));
     PG_TRY (look (s, state, now, b->utilisation, &top));
     if (instability_holds (s, &events_of (s)->unstable, top > 1 + close)) {
@@ -299,7 +294,7 @@ static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *
     for (double at = now; there <= 1 && (at == now || at < full); at = *end) {
         PG_TRY (stretch_ahead (s, &leapt));
         if (leapt) PG_TRY (contact_route_mark (sys));
-        PG_TRY (facet_ready (s, state));
+        PG_TRY (event_measure (s, state));
         PG_TRY (look (s, state, at, s->break_loop.factor, &here));
         if (here > 1 && at == now) {
             PG_TRY (stretches_back (s, state, 0, &in, &out, &found));
@@ -309,10 +304,10 @@ static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *
             break;
         }
         if (here > 1 || !(at < full)) break;
-        *end = fmin (full, stretch_end (s));
+        *end = fmin (full, contact_route_end (&s->break_loop.system));
         PG_TRY (look (s, state, *end, s->break_loop.factor, &there));
         if (there > 1) PG_TRY (way_out (s, state, at, *end, end));
-        event_move (s, state, *end);
+        event_displacement (s, *end, state->d);
         PG_TRY (contact_route_go (sys, *end));
         PG_TRY (contact_route_mark (sys));
     }
@@ -324,7 +319,7 @@ static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *
         if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
         goto done;
     }
-    event_move (s, state, *end);
+    event_displacement (s, *end, state->d);
 done:
     return status;
 }

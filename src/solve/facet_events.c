@@ -11,25 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-/* The measurement for the equilibria at hand, unless there is one. */
-pg_status facet_ready (pg_solver *s, const pg_state *state)
-{
-    const event_stepping *e = events_of (s);
-    if (s->break_loop.growth->fresh) return PG_OK;
-    return facet_measure (&s->break_loop, state, e->base, e->unit, stage_end (s));
-}
-
-/* Proportional loads: everything grows with the load factor. */
-pg_status facet_next (pg_solver *s, const pg_state *state, double *next)
-{
-    pg_status status = PG_OK;
-    PG_TRY (facet_ready (s, state));
-    double top = facet_utilisation (&s->break_loop, state, 1);
-    *next = top > 0 ? 1 / top : INFINITY;
-done:
-    return status;
-}
-
 /* Equilibria for the bonds that live now; a body cut in two may have none, which ends the run. */
 static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *ended)
 {
@@ -72,10 +53,10 @@ static pg_status way_end (pg_solver *s, pg_state *state, double factor, double *
         *end = factor;
         return affine_stay (s, state);
     }
-    PG_TRY (facet_ready (s, state));
+    PG_TRY (event_measure (s, state));
     if (affine) PG_TRY (affine_next_growth (s, state, end));
     else {
-        PG_TRY (facet_next (s, state, &next));
+        PG_TRY (event_next_growth (s, state, &next));
         *end = isfinite (next) ? fmin (next, fmax (factor, 1)) : factor;
     }
     if (s->options.on_instability != PG_UNSTABLE_FOLLOW) *end = fmax (*end, factor);
@@ -92,7 +73,7 @@ static pg_status account (pg_solver *s, pg_state *state, double factor, double e
     const double ways[2] = { end, factor };
     if (events_of (s)->base && s->break_loop.system.contact) return affine_account (s, state, end);
     for (int k = 0; k < 2; k++) {
-        event_move (s, state, ways[k]);
+        event_displacement (s, ways[k], state->d);
         PG_TRY (event_account (s, state, ways[k], 0));
     }
 done:
@@ -128,7 +109,7 @@ static void end_apart (pg_solver *s, int cut, double work, double strain, pg_ste
 
 /* One event: facets, new equilibria, a new measurement, energies. Of the state the displacement stays that of
  * before, which belongs to the reactions of the step. */
-pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *step)
+static pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
@@ -149,7 +130,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
         PG_TRY (solve_anew (s, state, factor, &ended));
         step->nbroken = b->nbroken, step->broken = b->broken;
         if (ended) break;
-        PG_TRY (facet_ready (s, state));
+        PG_TRY (event_measure (s, state));
         PG_TRY (facet_run_out (b, state, factor, &more));
     }
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
@@ -169,3 +150,6 @@ done:
     if (g->before) memcpy (state->d, g->before, bytes);
     return status;
 }
+
+const growth_client facet_client = { facet_free, facet_forward, facet_round, facet_event, facet_save,
+                                     facet_return };

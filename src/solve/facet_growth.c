@@ -45,7 +45,25 @@ static void doubt_strength (const break_loop *b)
     }
 }
 
-static void free_growth (break_loop *b)
+/* Where the criterion judges tips. */
+pg_status facet_create (break_loop *b)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->system.problem;
+    facet_growth *g = NULL;
+    if (b->growth || !pg_criterion_of_tips (p->criterion)) return PG_OK;
+    const char *why = pg_tip_refuses (p, b->system.force);
+    if (why) PG_TRY (options_fault (b->system.options, "failure.criterion", "%s", why));
+    PG_ALLOC (g, 1);
+    b->growth = g, b->grower = &facet_client;
+    g->length = b->system.options->facet;
+    PG_TRY (pg_nearest_create (&g->near, p->dim, p->cloud.n, p->cloud.x));
+    doubt_strength (b);
+done:
+    return status;
+}
+
+void facet_free (break_loop *b)
 {
     facet_growth *g = b->growth;
     if (!g) return;
@@ -516,8 +534,8 @@ done:
 }
 
 /* In motion what is cut is held, so that there is no second round. */
-static pg_status round_of_growth (break_loop *b, pg_state *state, double t, const double *d,
-                                  const dynamics *dyn, pg_step *step, int *again)
+pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
+                       pg_step *step, int *again)
 {
     pg_status status = PG_OK;
     int over = 0;
@@ -525,27 +543,6 @@ static pg_status round_of_growth (break_loop *b, pg_state *state, double t, cons
     *again = 0;
     if (facet_due (b, dyn->dt)) PG_TRY (facet_move (b, state, t, d, &step->utilisation, &over));
     if (over) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
-done:
-    return status;
-}
-
-/* ---- what the break loop has of it --------------------------------------------------------------------- */
-static const growth_client client = { free_growth, facet_forward, round_of_growth, facet_save, facet_return };
-
-/* Where the criterion judges tips. */
-pg_status facet_create (break_loop *b)
-{
-    pg_status status = PG_OK;
-    const pg_problem *p = b->system.problem;
-    facet_growth *g = NULL;
-    if (b->growth || !pg_criterion_of_tips (p->criterion)) return PG_OK;
-    const char *why = pg_tip_refuses (p, b->system.force);
-    if (why) PG_TRY (options_fault (b->system.options, "failure.criterion", "%s", why));
-    PG_ALLOC (g, 1);
-    b->growth = g, b->grower = &client;
-    g->length = b->system.options->facet;
-    PG_TRY (pg_nearest_create (&g->near, p->dim, p->cloud.n, p->cloud.x));
-    doubt_strength (b);
 done:
     return status;
 }

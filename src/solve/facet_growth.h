@@ -103,6 +103,9 @@ static const double facet_tie = 1e-3;
 
 /* ---- facet_growth.c ------------------------------------------------------------------------------------ */
 pg_status facet_create  (break_loop *b);  /* where the criterion judges tips: a client of the loop */
+void      facet_free    (break_loop *b);
+pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
+                         pg_step *step, int *again);
 pg_status facet_keep    (break_loop *b, const pg_keeper *keeper);
 pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_keeper *keeper);
 /* Measures all open tips, and asks for trial facets. base NULL: the one field `unit`, with the loads of t;
@@ -123,6 +126,9 @@ pg_status facet_grow_one (break_loop *b, pg_state *state, const facet_candidate 
 pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew);
 /* The tips at the load factor of a step, for results (1 after a round at a fixed load). */
 pg_status facet_show    (pg_solver *s, const pg_state *state, double factor);
+
+/* ---- facet_events.c: what the break loop and event stepping have of it --------------------------------- */
+extern const growth_client facet_client;
 
 /* ---- facet_ends.c -------------------------------------------------------------------------------------- */
 /* How many open tips nothing judges at a load factor, by the last measurement; where none is open and none

@@ -61,9 +61,8 @@ static double breaking_cost (pg_system *s)
 {
     system_updates *u = &s->updates;
     pg_ways *w = &s->choice.ways;
-    double now = 0;
-    if (u->following && inverse_has_base (u->following))
-        now = inverse_spent (u->following, factor_again (s));
+    int counts = u->following && inverse_has_base (u->following);
+    double now = counts ? inverse_spent (u->following, factor_again (s)) : 0;
     double cost = now > w->spent ? now - w->spent : 0;
     w->spent = now;
     w->breaking += cost, w->bonds += w->fresh;

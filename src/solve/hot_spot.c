@@ -261,7 +261,6 @@ static int is_rim (const pg_problem *p, size_t i)
     return 0;
 }
 
-
 /* Up to `most` places with load factors below the best that is known, each the first to reach its
  * strength among those around it, none within HOT_APART spacings of another. */
 pg_status hot_spots (const search *g, size_t most, hot_spot *out, size_t *n)

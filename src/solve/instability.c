@@ -171,7 +171,7 @@ static pg_status look_at_rest (pg_solver *s, instability *u, pg_state *state, do
     break_loop *b = &s->break_loop;
     *top = 0;
     if (b->growth) {
-        PG_TRY (facet_ready (s, state));
+        PG_TRY (event_measure (s, state));
         *top = facet_utilisation (b, state, factor - stage_start (s));
         goto done;
     }
@@ -194,7 +194,7 @@ pg_status instability_after (pg_solver *s, instability *u, pg_state *state, doub
     if (solved == PG_OK) {
         PG_TRY (look_at_rest (s, u, state, factor, &top));
         if (!(top > 1 + at_limit)) goto done;
-    } else if (!event_no_equilibrium (solved)) PG_TRY (solved);
+    } else if (!system_no_equilibrium (solved)) PG_TRY (solved);
     *moves = 1;
     PG_TRY (begin (s, u, state, factor));
 done:
@@ -277,7 +277,7 @@ static pg_status try_to_settle (pg_solver *s, instability *u, pg_state *state)
         enter (s, u, PHASE_SETTLING);
         goto done;
     }
-    if (!event_no_equilibrium (solved)) PG_TRY (solved);
+    if (!system_no_equilibrium (solved)) PG_TRY (solved);
     event_equilibrium_lost (s, state);
     enter (s, u, PHASE_RUNNING);
     u->last_break = u->time;

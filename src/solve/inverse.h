@@ -13,8 +13,8 @@
  *
  * When t grows so far that the dense algebra since the base has cost more than a new base would (counted, by
  * stored rates: rent or buy), one is due; the caller decides when. Nothing here depends on a clock, and of
- * threads only BLAS knows. Files: inverse.c (bases, changes, solving), inverse_touched.c (the dense system),
- * inverse_columns.c (Green columns), inverse_keep.c (checkpoints). */
+ * threads only BLAS knows. Files: inverse.c, inverse_touched.c (the dense
+ * system), inverse_columns.c (Green columns). */
 #ifndef PG_INVERSE_H
 #define PG_INVERSE_H
 #include "solve.h"
@@ -137,7 +137,7 @@ static inline const double *green_column (const inverse *v, size_t i)
     return v->columns.chunk[i / CHUNK] + (i % CHUNK) * v->s->ndof;
 }
 
-/* ---- inverse_keep.c ------------------------------------------------------------------------------------ */
+/* ---- checkpoints (inverse.c) --------------------------------------------------------------------------- */
 /* Base, D, M: a run that is read back goes on bit by bit. After reading, and after the force and the factor
  * of the base (system.base: the bonds that lived then) were made again, inverse_restore follows before
  * anything else is asked for. */

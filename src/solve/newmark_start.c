@@ -26,7 +26,7 @@ void newmark_damp (newmark *n, const double *v, double *residual)
 }
 
 /* residual -= M a + C v; what facets that open still hold is added. */
-void newmark_resist (newmark *n, const double *v, const double *a, double *residual)
+static void resist_motion (newmark *n, const double *v, const double *a, double *residual)
 {
     newmark_damp (n, v, residual);
     system_add_held (n->system, residual);
@@ -196,7 +196,7 @@ pg_status newmark_account (newmark *n, break_loop *b, const pg_state *state, dou
     sys->report->energy_kinetic = newmark_kinetic (n, state->v);
     if (!sys->force->work) goto done;
     memset (sys->balance.full, 0, sys->ndof * sizeof *sys->balance.full);
-    newmark_resist (n, state->v, state->a, sys->balance.full);
+    resist_motion (n, state->v, state->a, sys->balance.full);
     PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = sys->balance.full },
                               &b->work_balance));
     PG_TRY (break_loop_book (b, 1));
@@ -244,7 +244,7 @@ pg_status newmark_launch (newmark *n, pg_state *state, double t)
     PG_TRY (system_exchange (sys, state->d));
     PG_TRY (system_exchange (sys, state->v));
     PG_TRY (sys->force->balance (sys->self, t, state->d, sys->balance.residual, &reference));
-    newmark_resist (n, state->v, state->a, sys->balance.residual);
+    resist_motion (n, state->v, state->a, sys->balance.residual);
     system_clear_ghosts (sys, sys->balance.residual);
     PG_TRY (accelerate (sys, state->a));
     PG_TRY (system_exchange (sys, state->a));

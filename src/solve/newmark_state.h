@@ -38,8 +38,6 @@ const dynamics *newmark_matrix (newmark *n);           /* what the factored matr
 pg_status newmark_supports (newmark *n, double t, int start);          /* fills `support` for time t */
 /* V and A of prescribed nodes from support */
 void      newmark_follow   (newmark *n, double t, double *v, double *a);
-/* -= M a + C v */
-void      newmark_resist   (newmark *n, const double *v, const double *a, double *residual);
 void      newmark_damp     (newmark *n, const double *v, double *residual);                   /* -= C v */
 pg_status newmark_remember (newmark *n, double t, const pg_state *state);  /* fills force0 */
 /* A knows nothing of contact: a less M^-1 G' f of the step's end. */

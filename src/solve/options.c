@@ -38,7 +38,7 @@ double options_number (const pg_scene *scene, const char *key)
 }
 
 /* The whole number of a key of the scene; without the key 0, also where the key has a default. */
-long options_integer (const pg_scene *scene, const char *key)
+static long whole_number (const pg_scene *scene, const char *key)
 {
     return given (scene, key) ? pg_scene_integer (scene, "%s", key) : 0;
 }
@@ -211,7 +211,7 @@ void options_read_times (pg_solver_options *o, const pg_problem *problem, const 
     int stable = (o->flags & PG_SOLVER_EXPLICIT) != 0;
     o->dt = options_number (scene, "solver.dt");
     o->end = options_number (scene, "solver.end");
-    o->time_steps = options_integer (scene, "solver.time_steps");
+    o->time_steps = whole_number (scene, "solver.time_steps");
     check_times (o, scene, stable);
     if (!(o->dt > 0 && o->end > 0 && o->time_steps)) complete_times (o, scene);
     if (!stable) o->steps = o->time_steps;
@@ -437,7 +437,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->tolerance = pg_scene_number (scene, "solver.tolerance");
     o->max_iterations = pg_scene_integer (scene, "solver.max_iterations");
     o->levels = pg_scene_integer (scene, "output.at.levels");
-    o->rows = o->flags & PG_SOLVER_IMPLICIT ? 0 : options_integer (scene, "output.at.rows");
+    o->rows = o->flags & PG_SOLVER_IMPLICIT ? 0 : whole_number (scene, "output.at.rows");
     o->contact = pg_contact_read (scene);
     read_breaking (o, problem, scene);
     if (type && type->read) type->read (o, problem, scene);

@@ -138,7 +138,7 @@ static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d,
     if (*restless >= 0) return PG_OK;
     b->known = 0;
     pg_status now = system_solve_once (s, dyn, 0.1);
-    if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) *restless = 1;
+    if (system_no_equilibrium (now)) *restless = 1;
     else {
         PG_TRY (now);
         *restless = restlessness (s, system_step (s, b->delta), d);

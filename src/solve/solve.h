@@ -292,6 +292,11 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
 /* The out-of-balance force of (t, d), from the force itself, relative to what it is measured against. */
 pg_status system_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative);
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
+/* Does this outcome say that there is none? */
+static inline int system_no_equilibrium (pg_status solved)
+{
+    return solved == PG_E_EQUILIBRIUM || solved == PG_E_NOT_SPD || solved == PG_E_SINGULAR;
+}
 /* d becomes the equilibrium at t under the contact forces at hand; *residual, errors as with system_solve. */
 pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* Solves for d at t down to a residual `share` times that of d only, nothing being judged; rough.before is an
@@ -321,6 +326,8 @@ typedef struct {
      * */
     pg_status (*round)   (struct break_loop *b, pg_state *state, double t, const double *d,
                           const dynamics *dyn, pg_step *step, int *again);
+    /* The event at this load factor, in event stepping. */
+    pg_status (*event)   (pg_solver *s, pg_state *state, double factor, pg_step *step);
     /* At the start of a step; where it is refused. */
     pg_status (*save)    (struct break_loop *b);
     void      (*restore) (struct break_loop *b);
@@ -409,9 +416,7 @@ void solver_names_that (int (*fits) (const pg_solver_type *type, const void *con
                         char *text, size_t size);
 
 /* ---- options.c: parts of `read` of several solvers ----------------------------------------------------- */
-/* A number or a whole number of the scene, 0 where it is not given. */
-double options_number  (const pg_scene *scene, const char *key);
-long   options_integer (const pg_scene *scene, const char *key);
+double options_number  (const pg_scene *scene, const char *key);       /* 0 where it is not given */
 int    options_begin_cracks (const pg_problem *problem);   /* new cracks begin where a strength is reached */
 /* solver.dt, end and time_steps. The caller says whether the step may be left to the solver: then one of the
  * last two is enough; else two of the three are needed. */

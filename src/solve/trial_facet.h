@@ -38,7 +38,6 @@ void      trials_free (trials **w);
 pg_status trial_release (trials *w, const pg_state *state, const trial_fields *f, size_t n,
                          const pg_changes *cut, trial_form *release);
 
-
 /* ---- trial_facet.c ------------------------------------------------------------------------------------- */
 /* Distance from x along the unit `direction` to the first place without body or behind a crack, at most
  * `limit`, m; *what: PG_MEETS_... */

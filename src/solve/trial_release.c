@@ -15,7 +15,6 @@
 #include "trial_facet.h"
 #include "perigal/vector.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Terms that cancel may be this many times as large as their sum; beyond, the cut body is solved anew. */
@@ -80,14 +79,6 @@ static pg_status ready (trials *w, const pg_state *state)
     PG_TRY (pg_state_copy (w->state, state));
 done:
     return status;
-}
-
-/* Cuts one stage on the copy of the state, and lets the caches of the force follow. */
-static pg_status cut_stage (trials *w, const pg_changes *cut)
-{
-    const pg_system *s = w->system;
-    for (size_t i = 0; i < cut->n; i++) w->state->alive[cut->bond[i]] = 0;
-    return s->force->refresh (s->self, w->state, cut);
 }
 
 /* Brings the caches back to the state. Forces with shape functions evaluate the touched points from the bits
@@ -261,14 +252,16 @@ done:
     return status;
 }
 
-/* Cuts one stage. *unfit: more unknowns are touched than this way is good for, or digits were lost. */
+/* Cuts one stage on the copy of the state; the caches of the force follow. *unfit: more unknowns are touched
+ * than this way is good for, or digits were lost. */
 static pg_status try_stage (trials *w, inverse *v, const trial_fields *f, const pg_changes *cut,
                             trial_form *release, int *unfit)
 {
     pg_status status = PG_OK;
     change c = { .node = NULL };
     int fits;
-    PG_TRY (cut_stage (w, cut));
+    for (size_t i = 0; i < cut->n; i++) w->state->alive[cut->bond[i]] = 0;
+    PG_TRY (w->system->force->refresh (w->system->self, w->state, cut));
     PG_TRY (compare_matrix (w, v, &c, &fits));
     if (fits) PG_TRY (compare_forces (w, f, &c));
     if (fits) PG_TRY (take_stage (w, v, f, &c, &fits));
@@ -350,11 +343,6 @@ static void form_of (const trial_fields *f, const double *energy, trial_form *ou
 }
 
 /* A part that comes loose with its loads releases without bound. */
-static int is_loose (pg_status now)
-{
-    return now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR;
-}
-
 static pg_status by_solves (trials *w, const pg_state *state, const trial_fields *f, size_t n,
                             const pg_changes *cut, trial_form *release)
 {
@@ -375,7 +363,7 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
             double t = combine (f, a, s->ndof, w->after);
             pg_status now = system_solve (s, t, w->after, NULL, &residual);
             energy[a] = INFINITY;
-            if (is_loose (now)) continue;
+            if (system_no_equilibrium (now)) continue;
             status = now == PG_OK ? loads_and_residual (w, t, w->after, p) : now;
             energy[a] = released (s->ndof, u[a], q[a], w->after, p);
         }
