@@ -163,11 +163,6 @@ const pg_linear_type *pg_linear_usual (int symmetric, int factors);
  * one, for K; not symmetric: for matrices that are indefinite or not symmetric; without a factor: by
  * products with A only. */
 const pg_linear_type *pg_linear_first (int symmetric, int factors);
-/* Analyses A by *type, by which one factorisation or a few will follow; where that is the first symmetric one
- * and A is so small that loading its library would take longer than factoring, by one that needs none, which
- * *type is then. Errors: those of analyse. */
-pg_status             pg_linear_analyse (const pg_linear_type **type, void **self, const pg_sparse *A,
-                                         const pg_linear_options *options);
 /* All names, separated by |, and "auto". */
 const char           *pg_linear_names (void);
 
@@ -180,9 +175,6 @@ int  pg_linear_threads (int threads);
  * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal
  * included; values are ignored. many: as in pg_linear_options. */
 pg_status pg_linear_forecast (const pg_sparse *graph, int block, int many, pg_linear_info *info);
-/* pg_linear_forecast for the solver that pg_linear_analyse takes for *type; *type becomes that solver. */
-pg_status pg_linear_forecast_fitting (const pg_linear_type **type, const pg_sparse *graph, int block,
-                                      int many, pg_linear_info *info);
 
 /* Conjugate gradients with the diagonal as preconditioner. x: first guess in, solution out. Stops at |r| <=
  * tolerance |b|. PG_E_EQUILIBRIUM after `limit` iterations, PG_E_NOT_SPD where p.A p <= 0. Sums are taken

@@ -57,8 +57,7 @@ static const pg_key linear[] = {
     ROW ("solver.tolerance", PG_NUMBER, "1", "[1e-13, 1e-4]", "1e-8", NULL,
          "Largest accepted residual, relative to the reference force."),
     { "solver.linear", PG_NAME, NULL, NULL, "auto", NULL, pg_linear_names, NULL,
-      "Linear solver; auto: the first, skyline for small systems that are factored once or a few times, or "
-      "one for indefinite matrices where K is not positive definite." },
+      "Linear solver; auto: the first, or one for indefinite matrices where K is not positive definite." },
     ROW ("solver.preconditioner", PG_NAME, NULL, NULL, "auto", "auto|jacobi|multilevel",
          "Of conjugate gradients without a matrix: the diagonal (jacobi), or grids of partition-of-unity "
          "functions over the points, split by cracks (multilevel: forces that provide the rows of K, static; "

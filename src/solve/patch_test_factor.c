@@ -123,7 +123,7 @@ pg_status patch_factor_create (patch_factor **out, const pg_problem *bare, const
     PG_ALLOC (f->K.value, entries);
     memcpy (f->K.value, K->value, entries * sizeof *f->K.value);
     PG_TRY (hold (&f->K, &bare->cloud));
-    PG_TRY (pg_linear_analyse (&f->linear, &f->self, &f->K, &o));
+    PG_TRY (f->linear->analyse (&f->self, &f->K, &o));
     f->linear->info (f->self, &info);
     if (assembly + operation_cost * info.flops > iterations) goto done;
     status = f->linear->factor (f->self, &f->K);

@@ -135,9 +135,7 @@ static pg_status analyse (pg_system *s)
     int reduced = s->nred != s->ndof;
     pg_linear_options o = { reduced ? 1 : s->components, s->problem->dim, s->problem->threads,
                             0.01 * s->options->tolerance, s->problem->criterion->type != NULL };
-    int free = strcmp (s->options->linear, "auto") == 0 && !s->options->plain;
-    if (free) PG_TRY (pg_linear_analyse (&f->linear, &f->factor, &f->A, &o));
-    else PG_TRY (f->linear->analyse (&f->factor, &f->A, &o));
+    PG_TRY (f->linear->analyse (&f->factor, &f->A, &o));
     pg_linear_info info;
     f->linear->info (f->factor, &info);
     s->report->factor_entries = info.factor_entries, s->report->factor_flops = info.flops;

@@ -4,8 +4,8 @@
 #include <malloc.h>
 #include "systems.h"
 
-static const char *const names[] = { "cholmod", "skyline", "umfpack", "pcg" };
-enum { NAMES = 4, MOST_RHS = 4 };
+static const char *const names[] = { "cholmod", "umfpack", "pcg" };
+enum { NAMES = 3, MOST_RHS = 4 };
 
 static pg_status solve_with (const char *name, const pg_sparse *A, const pg_linear_options *options,
                              size_t nrhs, const double *b, double *x)
@@ -223,61 +223,6 @@ static void cholesky_refuses_what_is_not_positive_definite (void **state)
 {
     (void) state;
     refuses_what_is_not_positive_definite ("cholmod");
-    refuses_what_is_not_positive_definite ("skyline");
-}
-
-/* Reverse Cuthill and McKee of a chain whose unknowns are numbered at random finds its order again: every row
- * of the factor has two entries, or four rows together have what begins at a multiple of four. */
-static void an_envelope_is_narrow (void **state)
-{
-    (void) state;
-    enum { N = 101 };
-    dense D = dense_new (N, N);
-    size_t at[N];
-    for (size_t i = 0; i < N; i++) at[i] = i * 37 % N;
-    for (size_t i = 0; i < N; i++) {
-        dense_set (&D, at[i], at[i], 2.1);
-        if (i) dense_set (&D, at[i], at[i - 1], -1), dense_set (&D, at[i - 1], at[i], -1);
-    }
-    pg_sparse A = sparse_of (&D, 1);
-    const pg_linear_type *type = pg_linear_find ("skyline");
-    void *solver = NULL;
-    pg_linear_info info;
-    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { 1, 1, 1, 0, 0 }));
-    type->info (solver, &info);
-    assert_string_equal (info.ordering, "rcm");
-    check_below (info.factor_entries, 6.5 * N);
-    type->free (&solver);
-    pg_sparse_clear (&A);
-    dense_free (&D);
-}
-
-/* What a factorisation of a few hundred unknowns takes is less than to load CHOLMOD; of a large one, and of
- * many, not; and who asked for another solver gets it. */
-static void small_systems_take_no_library (void **state)
-{
-    (void) state;
-    static const struct { size_t side; int dim, many; const char *asked, *taken; } c[] = {
-        { 12, 2, 0, "cholmod", "skyline" }, { 12, 2, 1, "cholmod", "cholmod" },
-        { 12, 2, 0, "umfpack", "umfpack" }, { 11, 3, 0, "cholmod", "cholmod" } };
-    for (size_t k = 0; k < sizeof c / sizeof *c; k++) {
-        dense D = random_laplacian (c[k].side, c[k].dim, 2);
-        pg_sparse A = sparse_of (&D, 1);
-        double *b = pg_calloc (D.nrow, sizeof *b), *x = pg_calloc (D.nrow, sizeof *x);
-        const pg_linear_type *type = pg_linear_find (c[k].asked);
-        void *solver = NULL;
-        b[D.nrow / 3] = 1;
-        check_ok (pg_linear_analyse (&type, &solver, &A,
-                                     &(pg_linear_options) { 2, c[k].dim, 1, 1e-12, c[k].many }));
-        assert_string_equal (type->name, c[k].taken);
-        check_ok (type->factor (solver, &A));
-        check_ok (type->solve (solver, 1, b, x));
-        check_below (misfit (&D, 1, x, b), 1e-11);
-        type->free (&solver);
-        pg_free (b), pg_free (x);
-        pg_sparse_clear (&A);
-        dense_free (&D);
-    }
 }
 
 static void conjugate_gradients_refuse_what_is_not_positive_definite (void **state)
@@ -560,8 +505,6 @@ int main (void)
         cmocka_unit_test (the_order_is_the_one_with_fewer_operations),
         cmocka_unit_test (one_analysis_serves_many_factorizations),
         cmocka_unit_test (cholesky_refuses_what_is_not_positive_definite),
-        cmocka_unit_test (an_envelope_is_narrow),
-        cmocka_unit_test (small_systems_take_no_library),
         cmocka_unit_test (conjugate_gradients_refuse_what_is_not_positive_definite),
         cmocka_unit_test (conjugate_gradients_say_when_they_do_not_arrive),
         cmocka_unit_test (local_right_hand_sides_are_solved_where_they_are),

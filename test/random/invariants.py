@@ -350,7 +350,7 @@ def solved_otherwise(case):
     """By another linear solver."""
     if case.data['solver']['kind'] != 'static':
         return
-    ways = [w for w in ('cholmod', 'umfpack', 'pcg', 'skyline') if w != case.data['solver'].get('linear')]
+    ways = [w for w in ('cholmod', 'umfpack', 'pcg') if w != case.data['solver'].get('linear')]
     way = ways[case.scene.seed % len(ways)]
     yield from same_way(case, case.run(lambda d: d['solver'].update(linear=way)), f'linear: {way}', tolerance=EVENTS)
 

@@ -399,10 +399,10 @@ class Maker:
         if self.kind in ('facets', 'strength'):
             how = {'kind': 'static', 'max_events': 6}
             if self.rare.random() < 0.2:
-                how['linear'] = self.rare.choice(('cholmod', 'umfpack', 'pcg', 'skyline')) if self.force != 'lps' else 'pcg'
+                how['linear'] = self.rare.choice(('cholmod', 'umfpack', 'pcg', 'cholmod')) if self.force != 'lps' else 'pcg'
             return how
         if self.kind == 'elastic' and self.chance(0.2):
-            return {'kind': 'static', 'linear': 'pcg' if self.force == 'lps' else self.one('cholmod', 'umfpack', 'pcg', 'skyline')}
+            return {'kind': 'static', 'linear': 'pcg' if self.force == 'lps' else self.one('cholmod', 'umfpack', 'pcg', 'cholmod')}
         return {'kind': 'static'}
 
 

@@ -17,7 +17,7 @@ LONGEST = 60
 # the first takes as long as two thirds of the others of the short sample together, each of the others as ten cells
 DEAR = {'short': {'interrupted and resumed|in motion|galerkin, newmark', 'relaxation|3D|galerkin, adr', 'horizon|6 h, 3D|rkpm gauss, constant',
                   'facets in motion|2 threads for 1|fcbm, verlet', 'facets in motion|interrupted and resumed|gmpd, central',
-                  'facets in motion|strip|bond, verlet', 'linear solver|3D|bond, skyline'}, 'long': set()}
+                  'facets in motion|strip|bond, verlet', 'linear solver|3D|bond, cholmod'}, 'long': set()}
 LEAST = {'short': 2, 'long': 4}             # cells of each condition
 
 

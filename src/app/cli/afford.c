@@ -76,9 +76,7 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     if (p->sums) PG_TRY (pg_assembly_graph_pairwise (&G, &p->rows[PG_NODES].family));
     else PG_TRY (pg_assembly_graph (&G, p->cloud.n, n, seen));
     int unknowns = pg_problem_unknowns (p), many = p->criterion && p->criterion->type;
-    if (f->automatic && !p->plain)
-        PG_TRY (pg_linear_forecast_fitting (&f->linear, &G, unknowns, many, &info));
-    else PG_TRY (pg_linear_forecast (&G, unknowns, many, &info));
+    PG_TRY (pg_linear_forecast (&G, unknowns, many, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more */
 done:

@@ -226,8 +226,7 @@ static pg_forecast analysed (const built *b, const char *text)
     pg_linear_info info;
     check_ok (pg_forecast_problem (&f, b->problem));
     check_ok (pg_assembly_graph (&G, b->problem->cloud.n, 2, seen));
-    check_ok (pg_linear_forecast_fitting (&f.linear, &G, b->problem->dim, b->problem->criterion->type != NULL,
-                                          &info));
+    check_ok (pg_linear_forecast (&G, b->problem->dim, b->problem->criterion->type != NULL, &info));
     pg_forecast_analysed (&f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     pg_sparse_clear (&G);
     return f;
