@@ -13,7 +13,7 @@ VERSION := 0.1.0
 ORDER   := base ranks scene discretization/kernel mechanics/material mechanics/criterion linalg netcdf geometry/mesh io/mesh_files geometry/cloud geometry/cells approx discretization/integration sums model force fracture contact symbol solve output picture app/compare results scene/keys app/compare/stored app/plan app/session app/study app/cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
-            libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libpng-dev libqhull-dev libcmocka-dev
+            libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libqhull-dev libcmocka-dev
 # What the tests of perigal-mpi, matlab-compat and python need; where these cannot be had, those tests say that they are skipped.
 OPTIONAL := petsc-dev mpi-default-dev mpi-default-bin octave octave-netcdf octave-dev gnuplot-nox ghostscript fonts-freefont-otf python3-numpy python3-netcdf4
 
@@ -104,7 +104,6 @@ $(BUILD)/src/app/cli/new.o: CFLAGS += -I$(BUILD)
 $(BUILD)/src/netcdf/library.o: CFLAGS += $(call soname,NETCDF,netcdf)
 $(BUILD)/src/geometry/cloud/delaunay.o: CFLAGS += $(call soname,QHULL,qhull_r)
 $(BUILD)/src/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
-$(BUILD)/src/picture/canvas_png.o: CFLAGS += $(call soname,PNG,png16)
 
 $(LIB): $(OBJECTS)
 	$(if $(V),,@echo "  AR   $@")

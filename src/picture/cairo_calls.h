@@ -21,7 +21,7 @@
     X (cairo_set_source) X (cairo_set_source_rgb) X (cairo_set_source_rgba) X (cairo_set_source_surface) \
     X (cairo_show_text) X (cairo_status) X (cairo_status_to_string) X (cairo_stroke) \
     X (cairo_stroke_preserve) X (cairo_surface_destroy) X (cairo_surface_finish) \
-    X (cairo_surface_mark_dirty) X (cairo_surface_status) \
+    X (cairo_surface_mark_dirty) X (cairo_surface_status) X (cairo_surface_write_to_png_stream) \
     X (cairo_svg_surface_create_for_stream) X (cairo_text_extents) X (cairo_translate)
 struct pg_cairo_calls {
 #define X(name) __typeof__ (name) *name;
@@ -77,6 +77,7 @@ pg_status pg_cairo_load (void);
 #define cairo_surface_finish(...)                pg_cairo.cairo_surface_finish (__VA_ARGS__)
 #define cairo_surface_mark_dirty(...)            pg_cairo.cairo_surface_mark_dirty (__VA_ARGS__)
 #define cairo_surface_status(...)                pg_cairo.cairo_surface_status (__VA_ARGS__)
+#define cairo_surface_write_to_png_stream(...)   pg_cairo.cairo_surface_write_to_png_stream (__VA_ARGS__)
 #define cairo_svg_surface_create_for_stream(...) pg_cairo.cairo_svg_surface_create_for_stream (__VA_ARGS__)
 #define cairo_text_extents(...)                  pg_cairo.cairo_text_extents (__VA_ARGS__)
 #define cairo_translate(...)                     pg_cairo.cairo_translate (__VA_ARGS__)

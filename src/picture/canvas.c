@@ -8,9 +8,6 @@
 #include <string.h>
 #include <strings.h>
 
-/* Bytes that are written at a time. */
-enum { PIECE = 1 << 20 };
-
 /* Takes the bytes that cairo has encoded; remembers errno of the first write that failed, because cairo
  * itself only says that one did. */
 static cairo_status_t write_bytes (void *closure, const unsigned char *data, unsigned int n)
@@ -34,8 +31,7 @@ static int ends_with (const char *path, const char *ending)
 pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double height)
 {
     pg_status status = PG_OK;
-    *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg"), .width = (int) width,
-                       .height = (int) height };
+    *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg") };
     if (!c->svg && !ends_with (path, ".png"))
         PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
     PG_TRY (pg_cairo_load ());
@@ -53,34 +49,18 @@ done:
     return status;
 }
 
-/* The pixels of a sheet to the file, where a fault of it is remembered as one of cairo's would be. */
-static pg_status write_pixels (pg_canvas *c)
+/* Ends the surface, whose bytes go to the file if the picture is whole. Returns cairo's first fault. */
+static cairo_status_t end_surface (pg_canvas *c, int whole)
 {
-    pg_status status = PG_OK;
-    unsigned char *data = NULL;
-    size_t size;
-    PG_TRY (pg_canvas_encode (c->surface, c->path, c->width, c->height, &data, &size));
-    for (size_t at = 0, n; at < size; at += n) {
-        n = size - at < PIECE ? size - at : PIECE;
-        if (write_bytes (c, data + at, (unsigned) n) != CAIRO_STATUS_SUCCESS) break;
-    }
-done:
-    pg_free (data);
-    return status;
-}
-
-/* Ends the surface, whose bytes go to the file if the picture is whole; *fault: cairo's first one. */
-static pg_status end_surface (pg_canvas *c, int whole, cairo_status_t *fault)
-{
-    pg_status status = PG_OK;
-    *fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
+    cairo_status_t fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
     if (c->cr) cairo_destroy (c->cr);
-    if (!c->surface) return PG_OK;
-    if (whole && *fault == CAIRO_STATUS_SUCCESS && !c->svg) status = write_pixels (c);
+    if (!c->surface) return fault;
+    if (whole && fault == CAIRO_STATUS_SUCCESS && !c->svg)
+        fault = cairo_surface_write_to_png_stream (c->surface, write_bytes, c);
     cairo_surface_finish (c->surface);
-    if (*fault == CAIRO_STATUS_SUCCESS) *fault = cairo_surface_status (c->surface);
+    if (fault == CAIRO_STATUS_SUCCESS) fault = cairo_surface_status (c->surface);
     cairo_surface_destroy (c->surface);
-    return status;
+    return fault;
 }
 
 /* Writes the picture if all went well so far, and otherwise removes the file. Returns the first fault: of
@@ -88,12 +68,10 @@ static pg_status end_surface (pg_canvas *c, int whole, cairo_status_t *fault)
 pg_status pg_canvas_close (pg_canvas *c, pg_status given)
 {
     pg_status status = given;
-    cairo_status_t fault;
-    pg_status encoded = end_surface (c, given == PG_OK, &fault);
+    cairo_status_t fault = end_surface (c, given == PG_OK);
     errno = 0;
     if (c->file && fclose (c->file) != 0 && !c->reason) c->reason = errno ? errno : EIO;
     if (given != PG_OK) goto done;
-    PG_TRY (encoded);
     if (c->reason) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (c->reason));
     if (fault == CAIRO_STATUS_NO_MEMORY) PG_FAIL (PG_E_MEMORY, "%s: no memory to draw", c->path);
     if (fault != CAIRO_STATUS_SUCCESS) PG_FAIL (PG_E_FILE, "%s: %s", c->path, cairo_status_to_string (fault));

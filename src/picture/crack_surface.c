@@ -76,9 +76,7 @@ static void paint (const painter *p, const double *a, const double *b, const dou
     for (int k = 0; k < 3; k++) normal[k] /= size;
     for (int k = 0; k < 3; k++) {
         const double *x = corner[k];
-        v[k][0] = (pg_along (e->right, x, 3) - p->screen->left) * p->screen->scale;
-        v[k][1] = (p->screen->top - pg_along (e->up, x, 3)) * p->screen->scale;
-        v[k][2] = pg_along (e->toward, x, 3);
+        pg_screen_place (p->screen, e, x, v[k]);
         long point = p->near ? pg_nearest_find (p->near, x, NULL, NULL) : -1;
         value[k] = p->near ? (point < 0 ? NAN : p->value[point]) : x[p->axis] / p->unit;
     }

@@ -5,7 +5,7 @@
  *
  * The steps, in the order of pg_picture_panels: the eye (view.c), the points in sight, the frame in
  * metres, the range of colours, the sheet with its axes (sheet.c), and for each panel a screen of pixels
- * that is filled (tiles.c, solid.c, raster.c) and painted. */
+ * that is filled (tiles.c, solid.c) and painted. */
 #include "tiles.h"
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +32,6 @@ typedef struct {
     /* index: the point in the cloud that the k-th seen point is; layer: the index of the shown
      * layer. */
     int    *index, layer;
-    pg_spots spots;
     /* Spacing around the points of a 2D cloud that is no lattice, m (cloud->n), or NULL. */
     double *spacing;
     /* Displaced faces of cracks in 2D, PG_FACE places each, m. */
@@ -194,38 +193,23 @@ static void widen (pg_reach *reach, const pg_sheet *p)
     reach->any = 1;
 }
 
-/* The frame that was measured for several pictures, if there is one, and its larger side. */
-static int take_given (pg_sheet *p, const pg_reach *reach, double *size)
-{
-    if (!reach || !reach->any) return 0;
-    for (int a = 0; a < 2; a++) {
-        p->low[a] = reach->low[a], p->high[a] = reach->high[a];
-        *size = fmax (*size, p->high[a] - p->low[a]);
-    }
-    return 1;
-}
-
-/* Chooses the frame, with a narrow margin, and the length unit: the largest of km, m, mm, µm,
- * nm that is not larger than the body. */
+/* Chooses the frame: that of several pictures, if it has been measured, else that of this one. */
 static pg_status choose_frame (drawing *d, pg_reach *measured)
 {
     pg_status status = PG_OK;
-    static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
+    const pg_reach *given = d->style->reach && d->style->reach->any ? d->style->reach : NULL;
     pg_sheet *p = &d->sheet;
-    double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
     int deformed = 0;
     for (size_t k = 0; k < d->n; k++) deformed |= displaced (d, k) != NULL;
-    int given = take_given (p, d->style->reach, &size);
-    for (int a = 0; a < 2 && !given; a++) {
+    for (int a = 0; a < 2; a++) {
         const double *direction = a ? p->eye.up : p->eye.right;
-        if (p->eye.kind == PG_SOLID && !deformed) extent_of_box (d, direction, &p->low[a], &p->high[a]);
+        if (given) p->low[a] = given->low[a], p->high[a] = given->high[a];
+        else if (p->eye.kind == PG_SOLID && !deformed)
+            extent_of_box (d, direction, &p->low[a], &p->high[a]);
         else PG_TRY (extent (d, direction, &p->low[a], &p->high[a]));
-        size = fmax (size, p->high[a] - p->low[a]);
     }
     if (measured) widen (measured, p);
-    for (int a = 0; a < 2; a++) p->low[a] -= margin * size, p->high[a] += margin * size;
-    p->unit = 1e-9;
-    for (int k = 3; k >= 0; k--) if (size >= 0.999 * unit[k]) p->unit = unit[k];
+    pg_sheet_frame (p);
 done:
     return status;
 }
@@ -257,83 +241,33 @@ done:
     return status;
 }
 
-/* Range of the values shown in all panels; a point that is not shown counts as NAN, which
- * pg_picture_range leaves out. */
-static pg_status range_of_panels (const drawing *d, double *low, double *high)
+/* What all panels show (d->n x cloud->n), NAN for a point that is not shown. */
+static pg_status shown_values (const drawing *d, double **out)
 {
     pg_status status = PG_OK;
-    double *shown = NULL, from, to;
-    int any = 0, found;
-    PG_ALLOC (shown, d->cloud->n);
-    *low = 0, *high = 1;
-    for (size_t k = 0; k < d->n; k++) {
-        for (size_t i = 0; i < d->cloud->n; i++) {
-            double v = value_of (d, k)[i];
-            shown[i] = !d->seen[i] || !(d->own || above (d, k, i)) ? NAN
-                       : !d->style->log                            ? v
-                       : v != 0                                    ? fabs (v)
-                                                                   : NAN;
-        }
-        PG_TRY (pg_picture_range (d->cloud->n, shown, d->style->clip && !d->own ? 2 : 0, &from, &to, &found));
-        if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
-        any |= found;
-    }
+    size_t n = d->cloud->n;
+    PG_ALLOC (*out, d->n * n);
+    for (size_t k = 0; k < d->n; k++)
+        for (size_t i = 0; i < n; i++)
+            (*out)[k * n + i] = d->seen[i] && (d->own || above (d, k, i)) ? value_of (d, k)[i] : NAN;
 done:
-    pg_free (shown);
     return status;
 }
 
-/* The range that was asked for, or else that of all values in sight; symmetric about zero for a diverging
- * map. */
-static pg_status choose_colours (drawing *d, double *low, double *high)
+/* Colours by depth go over the depths of the points, or of the surfaces of cracks, whatever was asked for. */
+static pg_status choose_colours (drawing *d, const pg_picture_style *style, const double *shown, double *low,
+                                 double *high)
 {
     pg_status status = PG_OK;
-    const pg_picture_style *style = d->style;
-    d->sheet.colour = style->diverging && !style->log ? pg_colour_diverging : pg_colour_sequential;
-    *low = style->low, *high = style->high;
-    if (*low < *high && !d->own) return PG_OK;
-    PG_TRY (range_of_panels (d, low, high));
+    pg_picture_style here = *style;
+    if (d->own) here.low = here.high = 0, here.clip = here.diverging = 0;
+    PG_TRY (pg_sheet_colours (&d->sheet, &here, d->n, d->cloud->n, shown, low, high));
     for (size_t k = 0; d->own && k < d->n; k++)
         if (pg_cracks_grown (cracks_of (d, k)))
             pg_cracks_depth (cracks_of (d, k), &d->grid, depth_axis (&d->sheet.eye), d->sheet.unit, low,
                              high);
-    if (style->log) pg_range_decades (low, high);
-    if (!style->diverging || style->log || d->own) goto done;
-    double top = fmax (fabs (*low), fabs (*high));
-    if (!(top > 0)) top = 1;
-    *low = -top, *high = top;
 done:
     return status;
-}
-
-/* A line below the picture when the colours leave values out, as pg_sheet_leave_out words it. */
-static pg_status choose_note (drawing *d, const char *label, double low, double high)
-{
-    pg_status status = PG_OK;
-    double *shown = NULL;
-    if (d->own || d->style->log || d->style->reach) return PG_OK;
-    PG_ALLOC (shown, d->n * d->cloud->n);
-    for (size_t k = 0; k < d->n; k++)
-        for (size_t i = 0; i < d->cloud->n; i++)
-            shown[k * d->cloud->n + i] = d->seen[i] && above (d, k, i) ? value_of (d, k)[i] : NAN;
-    pg_sheet_leave_out (&d->sheet, label, d->n * d->cloud->n, shown, low, high);
-done:
-    pg_free (shown);
-    return status;
-}
-
-/* Finds whether values lie beyond the ends of the colour bar, which then ends in arrows. */
-static void choose_arrows (drawing *d)
-{
-    const pg_axis *bar = &d->sheet.bar;
-    double slack = 1e-9 * (bar->log ? bar->low : bar->high - bar->low);
-    for (size_t k = 0; k < d->n; k++)
-        for (size_t i = 0; i < d->cloud->n; i++) {
-            double v = value_of (d, k)[i];
-            if (!isfinite (v) || !d->seen[i] || !above (d, k, i)) continue;
-            if (bar->log) v = v != 0 ? fabs (v) : bar->low;
-            d->sheet.beyond[0] |= v < bar->low - slack, d->sheet.beyond[1] |= v > bar->high + slack;
-        }
 }
 
 /* How far the cell of a point reaches along axis a of the picture, m. Where the spacing is not
@@ -361,7 +295,9 @@ static void into_plane (const pg_eye *e, const double *x, int dim, double factor
     out[0] = factor * pg_along (e->right, x, dim), out[1] = factor * pg_along (e->up, x, dim);
 }
 
-/* Takes the points in sight over into the plane; d->index remembers which points they are. */
+/* Takes the points in sight over into the plane; d->index remembers which points they are. Those near an
+ * oblique plane are taken where they have moved to, as their cells are not those of a lattice in that
+ * plane. */
 static pg_status collect_points (drawing *d, size_t panel, pg_tiles *t, plane_points *p)
 {
     pg_status status = PG_OK;
@@ -372,15 +308,20 @@ static pg_status collect_points (drawing *d, size_t panel, pg_tiles *t, plane_po
     size_t dim = (size_t) c->dim, n = c->n;
     int has_area = dim == 2 && c->volume && c->thickness > 0;
     PG_ALLOC (p->place, 2 * n);
-    if (u) PG_ALLOC (p->shift, 2 * n);
+    t->moved = u && e->kind == PG_SLICE;
+    if (u && !t->moved) PG_ALLOC (p->shift, 2 * n);
     if (damage) PG_ALLOC (p->damage, n);
     if (size) PG_ALLOC (p->size, n);
     for (size_t i = 0; i < n; i++) {
         const double *x = c->x + i * dim;
         if (!d->seen[i] || !isfinite (x[0]) || !isfinite (x[1])) continue;
         size_t k = t->n++;
+        double move[2] = { 0 };
         into_plane (e, x, (int) dim, 1, p->place + 2 * k);
-        if (u) into_plane (e, u + i * dim, (int) dim, d->style->magnify, p->shift + 2 * k);
+        if (u) into_plane (e, u + i * dim, (int) dim, d->style->magnify, move);
+        for (size_t a = 0; a < 2; a++)
+            if (p->shift) p->shift[2*k + a] = move[a];
+            else p->place[2*k + a] += move[a];
         if (damage) p->damage[k] = damage[i];
         if (size) p->size[k] = size[i];
         if (has_area) t->area += c->volume[i] / c->thickness;
@@ -396,16 +337,17 @@ static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
     pg_status status = PG_OK;
     const pg_eye *e = &d->sheet.eye;
     plane_points p = { 0 };
+    int oblique = e->kind == PG_SLICE;
     pg_tiles t = { .dim = d->cloud->dim,
-                   .loose = d->spacing || d->cloud->size || d->grid.loose,
+                   .loose = !oblique && (d->spacing || d->cloud->size || d->grid.loose),
                    .eye = e,
-                   .outline = d->style->outline,
-                   .cracks = cracks_of (d, panel) };
+                   .outline = oblique ? NULL : d->style->outline,
+                   .cracks = oblique ? NULL : cracks_of (d, panel) };
     PG_TRY (collect_points (d, panel, &t, &p));
     for (int a = 0; a < 2; a++) t.step[a] = 2 * half_of_points (d, a);
     if (e->kind == PG_LAYER)
         t.at = e->toward[e->cut] * (d->grid.origin[e->cut] + d->layer * d->grid.step[e->cut]);
-    t.place = p.place, t.shift = p.shift, t.damage = p.damage, t.size = d->cloud->size ? p.size : NULL;
+    t.place = p.place, t.shift = p.shift, t.damage = p.damage, t.size = p.size;
     PG_TRY (pg_tiles_open (&t));
     PG_TRY (pg_tiles_draw (&t, s));
     PG_TRY (pg_tiles_faces (&t, &d->face, &d->nface, &d->cap_face));
@@ -417,39 +359,6 @@ static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
 done:
     pg_tiles_close (&t);
     free_plane_points (&p);
-    return status;
-}
-
-/* Paints the cells of the points near an oblique plane, where displaced points or irregular
- * ones have no cells to cut. Gaps of displaced points are closed less, so that opened cracks
- * stay open. */
-static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
-{
-    pg_status status = PG_OK;
-    const double *u = displaced (d, panel);
-    const pg_eye *e = &d->sheet.eye;
-    size_t dim = (size_t) d->cloud->dim, cells = (size_t) s->width * (size_t) s->height;
-    d->spots.n = 0;
-    for (size_t i = 0; i < d->cloud->n; i++) {
-        const double *x = d->cloud->x + i * dim;
-        if (!d->seen[i] || !d->keep[i]) continue;
-        size_t k = d->spots.n++;
-        for (int a = 0; a < 2; a++) {
-            const double *direction = a ? e->up : e->right;
-            double place = pg_along (direction, x, (int) dim)
-                           + (u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0);
-            d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale
-                                                   : (place - s->left) * s->scale;
-        }
-        d->index[k] = (int) i;
-    }
-    for (int a = 0; a < 2; a++) {
-        d->spots.size[a] = 2 * half_of_points (d, a) * s->scale;
-    }
-    d->spots.reach = u ? 1.3 : 1.9;                    /* opened cracks stay open */
-    PG_TRY (pg_raster (&d->spots, s->width, s->height, s->owner));
-    for (size_t p = 0; p < cells; p++) if (s->owner[p] >= 0) s->owner[p] = d->index[s->owner[p]];
-done:
     return status;
 }
 
@@ -478,8 +387,7 @@ static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
         pg_solid_draw (&solid, s);
         return d->panel[panel].select ? pg_ghost_draw (&solid, s) : PG_OK;
     }
-    if (e->kind != PG_SLICE) return paint_tiles (d, panel, s);
-    if (d->grid.loose || u) return paint_spots (d, panel, s);
+    if (e->kind != PG_SLICE || d->grid.loose || u) return paint_tiles (d, panel, s);
     paint_slice (d, s);
     return PG_OK;
 }
@@ -528,22 +436,22 @@ static pg_status draw_sheet (drawing *d, const char *path)
     pg_status status = PG_OK;
     pg_canvas canvas = { 0 };
     pg_picture_style style = *d->style;
-    double low, high;
+    double low, high, *shown = NULL;
     if (style.by_depth && d->sheet.eye.kind == PG_SOLID) PG_TRY (colour_by_depth (d));
     if (d->own) style.label = d->label;
-    PG_TRY (choose_colours (d, &low, &high));
-    PG_TRY (choose_note (d, style.label, low, high));
+    PG_TRY (shown_values (d, &shown));
+    PG_TRY (choose_colours (d, &style, shown, &low, &high));
     if (d->sheet.eye.kind == PG_LAYER && !style.section) style.title = name_layer (d);
     PG_TRY (pg_cairo_load ());
     pg_sheet_fit (&d->sheet, &style, low, high);
-    choose_arrows (d);
-    PG_ALLOC (d->spots.place, 2 * d->cloud->n);
+    if (!d->own) pg_sheet_arrows (&d->sheet, d->n * d->cloud->n, shown);
     PG_ALLOC (d->index, d->cloud->n);
     PG_TRY (pg_canvas_open (&canvas, path, d->sheet.total[0], d->sheet.total[1]));
     for (size_t k = 0; k < d->n; k++)
         PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->sheet.eye.framed ? 2 : 1));
     pg_sheet_draw (&d->sheet, canvas.cr, d->cloud, &d->grid, &style);
 done:
+    pg_free (shown);
     return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
@@ -568,7 +476,7 @@ static pg_status draw_or_measure (const char *path, pg_reach *measured, const pg
 done:
     if (d) {
         pg_grid_clear (&d->grid);
-        pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index), pg_free (d->spots.place);
+        pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index);
         pg_free (d->spacing), pg_free (d->face);
     }
     pg_free (d);

@@ -99,27 +99,21 @@ void pg_grid_clear (pg_grid *g)
 }
 
 /* ---- 2D ------------------------------------------------------------------------------------------------ */
-/* 1 if the coordinates along an axis are those of no lattice: their phases, 2 pi x / step,
- * spread over the circle (length of the mean unit vector below 0.3), and more than a third of
- * the coordinates differ from each other. Lattices whose points moved a little keep their
- * phase; lattices with another step than the nominal one have few different coordinates. work:
- * n values of scratch space. */
+/* 1 if the coordinates along an axis are those of no lattice: more than a third of them differ from each
+ * other. work: n values of scratch space. */
 static int spreads (const pg_cloud *cloud, int axis, double *work)
 {
-    double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;
+    double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h;
     size_t own = 1, n = cloud->n;
     if (!(step > 0) || cloud->regular) return 0;
-    for (size_t i = 0; i < n; i++) {
-        work[i] = cloud->x[2 * i + (size_t) axis];
-        c += cos (6.283185307179586 * work[i] / step), s += sin (6.283185307179586 * work[i] / step);
-    }
-    if (hypot (c, s) >= 0.3 * (double) n) return 0;
+    for (size_t i = 0; i < n; i++) work[i] = cloud->x[2 * i + (size_t) axis];
     pg_sort (work, n, sizeof *work, pg_ascending_numbers);
     for (size_t i = 1; i < n; i++) own += work[i] - work[i - 1] > 1e-6 * step;
     return 3 * own > n;
 }
 
-/* The spacing about a point follows from its volume, compared with the median volume. */
+/* The spacing about a point follows from its volume; where the thickness is not known, compared with the
+ * median volume. */
 pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
 {
     pg_status status = PG_OK;
@@ -133,7 +127,8 @@ pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
     pg_sort (sorted, cloud->n, sizeof *sorted, pg_ascending_numbers);
     double middle = sorted[cloud->n / 2];
     for (size_t i = 0; i < cloud->n; i++)
-        (*spacing)[i] = cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);
+        (*spacing)[i] = cloud->volume && cloud->thickness > 0 ? sqrt (cloud->volume[i] / cloud->thickness)
+                        : cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);
 done:
     pg_free (sorted);
     return status;

@@ -26,8 +26,6 @@ typedef struct {
     const char *path;
     /* svg: 1 for SVG; reason: errno of the first write that failed, 0 if none did. */
     int      svg, reason;
-    /* pixels */
-    int      width, height;
 } pg_canvas;
 /* Creates the file and a white canvas of that size in pixels. PG_E_USAGE: the name ends
  * neither in .png nor in .svg. */
@@ -36,9 +34,6 @@ pg_status pg_canvas_open  (pg_canvas *c, const char *path, double width, double 
  * removed. Returns the given status, or the failure of writing. May be called for a canvas
  * that never opened. */
 pg_status pg_canvas_close (pg_canvas *c, pg_status status);
-/* canvas_png.c: the bytes of a PNG file of a surface of so many pixels (pg_free); path: for messages. */
-pg_status pg_canvas_encode (cairo_surface_t *surface, const char *path, int width, int height,
-                            unsigned char **out, size_t *size);
 /* Draws text, or with draw = 0 only measures it, and returns its width. ^{...} and _{...} are
  * raised and lowered. align 0 starts the text at x, 0.5 centres it there, 1 ends it there; y
  * is the middle of the capital letters. turned = 1 writes upwards. */
@@ -97,23 +92,6 @@ void pg_colour_diverging  (double t, double rgb[3]);
 enum { PG_CURVE_COLOURS = 8 };
 /* The colour of curve k of a chart; eight colours, then again from the first. */
 void pg_colour_curve (size_t k, double rgb[3]);
-
-/* ---- raster.c ------------------------------------------------------------------------------------------ */
-/* Points as rectangles or discs on pixels. */
-typedef struct {
-    size_t  n;
-    /* Pixels from the left and from the top (n x 2). */
-    double *place;
-    /* Width and height of a cell of the lattice, pixels; gaps between cells up to (reach - 1)
-     * / 2 cells are closed. */
-    double  size[2], reach;
-    /* Irregular points: the spacing around each one, pixels (n); NULL: all have the rectangle
-     * `size`. */
-    double *spacing;
-} pg_spots;
-/* Finds for each pixel (width x height, row by row) the index of the rectangle or disc that
- * covers its centre, -1 for none. See raster.c. */
-pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner);
 
 /* ---- grid.c: the points as cells of a lattice -------------------------------------------------- */
 /* A 3D cloud as cells of the lattice that it came from. */
@@ -183,6 +161,10 @@ enum { PG_EMPTY = -1, PG_GHOST = -2, PG_EDGE = -3 };
 /* Allocates an empty frame of that size in pixels; left, top and scale are the caller's. */
 pg_status pg_screen_open (pg_screen *s, int width, int height);
 void      pg_screen_close (pg_screen *s);
+/* Pixels across and down (not rounded) and depth of a place in space (3, m). */
+void      pg_screen_place (const pg_screen *s, const pg_eye *eye, const double *x, double at[3]);
+/* 1 if such a place is not hidden behind what the screen shows there, to within slack (m). */
+int       pg_in_sight (const pg_screen *s, const double *at, double slack);
 /* Draws a triangle with a depth buffer: each corner v has pixels across, pixels down and the
  * depth. Fills the pixels whose centre lies inside or on an edge unless something nearer to
  * the eye is there. value: at the corners, interpolated linearly, or NULL. */
@@ -257,10 +239,15 @@ enum { PG_CATEGORIES = 1023 };
 
 /* The name of the length unit, "" if there is none. */
 const char *pg_sheet_unit (const pg_sheet *p);
-/* Before the fit: if some of n values (NAN: not shown) lie outside the colours from low to
- * high, writes into the note what share is inside and between which values all of them lie. */
-void pg_sheet_leave_out (pg_sheet *p, const char *label, size_t n, const double *value, double low,
-                         double high);
+/* Adds a margin to low and high, which are those of the body, and chooses the unit. */
+void pg_sheet_frame (pg_sheet *p);
+/* Before the fit: chooses the colour map and its ends over `panels` states of n values (NAN: not shown). If
+ * values lie outside of them, the note says what share is inside and between which values all of them lie. */
+pg_status pg_sheet_colours (pg_sheet *p, const pg_picture_style *style, size_t panels, size_t n,
+                            const double *value, double *low, double *high);
+/* After the fit: finds whether some of n values lie beyond the ends of the colour bar, which then ends in
+ * arrows. */
+void pg_sheet_arrows (pg_sheet *p, size_t n, const double *value);
 /* Fixes the layout; low and high are the ends of the colour bar. */
 void pg_sheet_fit  (pg_sheet *p, const pg_picture_style *style, double low, double high);
 /* Pixels of the place (a, b) of the picture's plane (m) in a panel. */

@@ -26,6 +26,18 @@ enum {
     NOTE = 36
 };
 
+/* The margin is narrow; the unit is the largest of km, m, mm, µm, nm that is not larger than the body. */
+void pg_sheet_frame (pg_sheet *p)
+{
+    static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
+    double size = fmax (p->high[0] - p->low[0], p->high[1] - p->low[1]),
+           margin = p->eye.framed ? 0.025 : 0.015;
+    if (!(size > 0)) size = 1;
+    for (int a = 0; a < 2; a++) p->low[a] -= margin * size, p->high[a] += margin * size;
+    p->unit = p->bare ? 1 : 1e-9;
+    for (int k = 3; k >= 0 && !p->bare; k--) if (size >= 0.999 * unit[k]) p->unit = unit[k];
+}
+
 /* Name of the length unit, "" for a mesh whose unit is not known. */
 const char *pg_sheet_unit (const pg_sheet *p)
 {
@@ -239,8 +251,7 @@ static void draw_note (const pg_sheet *p, cairo_t *cr)
 
 /* A range that leaves out stray values is only honest if the picture says so: how many points the colours
  * cover, and from where to where the values go. */
-void pg_sheet_leave_out (pg_sheet *p, const char *label, size_t n, const double *value, double low,
-                         double high)
+static void leave_out (pg_sheet *p, const char *label, size_t n, const double *value, double low, double high)
 {
     double least = INFINITY, most = -INFINITY, slack = 1e-9 * (high - low), all = 0, in = 0;
     char unit[32] = "", end[2][48];
@@ -260,6 +271,58 @@ void pg_sheet_leave_out (pg_sheet *p, const char *label, size_t n, const double 
     }
     snprintf (p->note, sizeof p->note, "colours end at %.3g %% of the points; values from %s to %s",
               floor (1000 * in / all) / 10, end[0], end[1]);
+}
+
+/* Ends of the colours over the values of all panels: as asked for, else what is shown; symmetric about zero
+ * for a diverging map. */
+static pg_status range_of (const pg_picture_style *style, size_t panels, size_t n, const double *value,
+                           double *low, double *high)
+{
+    pg_status status = PG_OK;
+    double *shown = NULL, from, to;
+    int any = 0, found;
+    *low = style->low, *high = style->high;
+    if (*low < *high) return PG_OK;
+    PG_ALLOC (shown, n);
+    *low = 0, *high = 1;
+    for (size_t k = 0; k < panels; k++) {
+        for (size_t i = 0; i < n; i++) {
+            double v = value[k * n + i];
+            shown[i] = !style->log ? v : v != 0 ? fabs (v) : NAN;
+        }
+        PG_TRY (pg_picture_range (n, shown, style->clip ? 2 : 0, &from, &to, &found));
+        if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
+        any |= found;
+    }
+    if (style->log) pg_range_decades (low, high);
+    else if (style->diverging) {
+        double top = fmax (fabs (*low), fabs (*high));
+        *high = top > 0 ? top : 1, *low = -*high;
+    }
+done:
+    pg_free (shown);
+    return status;
+}
+
+pg_status pg_sheet_colours (pg_sheet *p, const pg_picture_style *style, size_t panels, size_t n,
+                            const double *value, double *low, double *high)
+{
+    p->colour = style->diverging && !style->log ? pg_colour_diverging : pg_colour_sequential;
+    pg_status status = range_of (style, panels, n, value, low, high);
+    if (status == PG_OK && !style->log && !style->reach)
+        leave_out (p, style->label, panels * n, value, *low, *high);
+    return status;
+}
+
+void pg_sheet_arrows (pg_sheet *p, size_t n, const double *value)
+{
+    const pg_axis *bar = &p->bar;
+    double slack = 1e-9 * (bar->log ? bar->low : bar->high - bar->low);
+    for (size_t i = 0; i < n; i++) {
+        double v = bar->log ? fabs (value[i]) : value[i];
+        if (!isfinite (v) || (bar->log && v == 0)) continue;
+        p->beyond[0] |= v < bar->low - slack, p->beyond[1] |= v > bar->high + slack;
+    }
 }
 
 /* All that belongs to the sheet and not to one frame. */

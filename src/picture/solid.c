@@ -33,6 +33,25 @@ void pg_screen_close (pg_screen *s)
     *s = (pg_screen) { 0 };
 }
 
+void pg_screen_place (const pg_screen *s, const pg_eye *e, const double *x, double at[3])
+{
+    at[0] = (pg_along (e->right, x, 3) - s->left) * s->scale;
+    at[1] = (s->top - pg_along (e->up, x, 3)) * s->scale;
+    at[2] = pg_along (e->toward, x, 3);
+}
+
+/* 1 if a place (pixels and depth) is nearer than one of the nine pixels around it, but for
+ * `slack`: the edges of a face must not vanish behind the face itself by rounding. */
+int pg_in_sight (const pg_screen *s, const double *at, double slack)
+{
+    for (int k = 0; k < 9; k++) {
+        double i = floor (at[0]) + k % 3 - 1, j = floor (at[1]) + k / 3 - 1;
+        if (!(i >= 0 && i < s->width && j >= 0 && j < s->height)) return 1;
+        if (s->depth[(size_t) j * (size_t) s->width + (size_t) i] <= at[2] + slack) return 1;
+    }
+    return 0;
+}
+
 /* Barycentric coordinates w of each pixel centre decide whether it is inside, with 1e-6
  * tolerance so that two triangles with a common edge leave no pixel out; depth and value are
  * linear in w. */
@@ -111,9 +130,7 @@ static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const 
         n++;
     }
     for (int a = 0; a < 3 && n > 0; a++) x[a] += s->magnify * u[a] / n;
-    out[0] = (pg_along (s->eye->right, x, 3) - screen->left) * screen->scale;
-    out[1] = (screen->top - pg_along (s->eye->up, x, 3)) * screen->scale;
-    out[2] = pg_along (s->eye->toward, x, 3);
+    pg_screen_place (screen, s->eye, x, out);
 }
 
 /* One face of a cube as two triangles; faces seen edge-on lie a little deeper, so that they do not flicker

@@ -12,15 +12,16 @@
 typedef struct {                                       /* borrowed unless said otherwise */
     /* Number of points that are seen. */
     size_t  n;
-    /* Dimension of the body, 2 or 3 (a layer); loose = 1: the points lie on no lattice. */
-    int     dim, loose;
+    /* Dimension of the body, 2 or 3 (a layer); loose = 1: the points lie on no lattice; moved = 1: places are
+     * those of displaced points. */
+    int     dim, loose, moved;
     /* Places in the plane of the picture, m (n x 2). */
     const double *place;
     /* Displacement in that plane times the magnification, m (n x 2), or NULL: undeformed. */
     const double *shift;
     /* Damage of the points (n), or NULL if it is not known. */
     const double *damage;
-    /* Spacing around each point, m (n), or NULL: measured from the points. */
+    /* Spacing around each point, m (n), or NULL: the larger step. */
     const double *size;
     /* Cell of a lattice along both axes of the picture, m; in 3D the depth of the plane, m;
      * the area of all points in the plane, m2, or 0 if it is not known. */
@@ -43,7 +44,7 @@ typedef struct {                                       /* borrowed unless said o
      * relative change of distance above which two damaged neighbours count as separated. */
     double *gradient, limit;
 } pg_tiles;
-/* Measures spacings, sorts the points into buckets and finds those near pre-cracks. Fails on
+/* Sorts the points into buckets and finds those near pre-cracks. Fails on
  * missing memory only. */
 pg_status pg_tiles_open  (pg_tiles *t);
 void      pg_tiles_close (pg_tiles *t);
@@ -60,8 +61,6 @@ pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
 enum { PG_FACE = 129 };
 pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *cap);
 
-/* Of a body with an outline: 1 for each pixel whose centre lies in it (width x height). PG_E_MEMORY. */
-pg_status pg_tiles_mask   (const pg_tiles *t, const pg_screen *screen, unsigned char *mask);
 /* 1 if a place lies in the body; also 1 where there is no outline, or one that is a mesh. */
 int       pg_tiles_inside (const pg_tiles *t, const double *at);
 /* Points within `reach` (m) of a place, in no particular order; writes at most `most` of them

@@ -1,33 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The displaced body on pixels. A fine grid covers the undeformed body; its corners move with
- * the points around them, and each piece of the grid is filled with what the undeformed pixels
- * show there. So parts of neighbouring points stay joined along displaced lines, whatever
- * their shape.
+ * The displaced body on pixels: the pixels of each point, as they are in the undeformed body, are moved by
  *
- *   displacement at x, seen from point o:   u(x) = sum_j w_j (u_j + grad u_j (x - x_j)) / sum_j w_j,
- *                                           w_j = (1 - |x - x_j| / reach)^2,   j not separated from o
+ *   u(x) = u_o + grad u_o (x - x_o),
+ *
+ * where grad u_o is fitted to the displacements of the neighbours of point o that hold to it. Between
+ * neighbours the two sides of this agree up to third differences of u, which leaves a pixel or two to be
+ * closed near the tips of cracks.
  *
  * Two points have separated if a pre-crack passes between them or if their distance has
- * changed more than strain explains. On both sides of a crack o differs, so the two displaced
- * faces open. */
+ * changed more than strain explains. Their pixels move apart, so that faces open. */
 #include "tiles.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Largest numbers of points around a place, and of owners in one piece of the grid. */
-enum { NEAR = 96, OWNERS = 24 };
-/* The undeformed picture, the screen to fill, and the grid between them. */
-typedef struct {
-    pg_tiles *t;
-    /* Owners of the pixels of the undeformed body. */
-    const pg_screen *rest;
-    pg_screen *screen;
-    /* Lower corner of the grid and edge of a piece, m. */
-    double origin[2], step;
-    long   count[2];
-} warp;
-
+/* Largest number of points around a place. */
+enum { NEAR = 96 };
 /* Relative displacement of two points over their distance: the strain that would explain it. */
 static double strain_of (const pg_tiles *t, size_t i, size_t j)
 {
@@ -109,41 +97,11 @@ done:
     return status;
 }
 
-/* Radius of averaging at a place: one and a half spacings of the point nearest to it, so that
- * all pieces that share a corner compute the same displacement there. */
-static double reach_at (const pg_tiles *t, size_t o, const double *at)
+/* Where a place of point o is now. */
+static void move (const pg_tiles *t, size_t o, const double *x, double *to)
 {
-    int near[NEAR];
-    double least = INFINITY, reach = 1.5 * t->spacing[o];
-    size_t k = pg_tiles_near (t, at, reach, NEAR, near);
-    for (size_t s = 0; s < k; s++) {
-        size_t j = (size_t) near[s];
-        double d = hypot (at[0] - t->place[2*j], at[1] - t->place[2*j + 1]);
-        if (d < least) least = d, reach = 1.5 * t->spacing[j];
-    }
-    return reach;
-}
-
-/* Shift of a place as the points that hold to point o see it: their own shifts, carried on by their
- * gradients and weighed by nearness. */
-static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out)
-{
-    int near[NEAR];
-    double sum = 0, reach = reach_at (t, o, at);
-    size_t k = pg_tiles_near (t, at, reach, NEAR, near);
-    out[0] = out[1] = 0;
-    for (size_t s = 0; s <= k; s++) {
-        size_t j = s < k ? (size_t) near[s] : o;
-        if (s == k ? sum > 0 : torn (t, o, j)) continue;
-        double x = at[0] - t->place[2 * j], y = at[1] - t->place[2 * j + 1], far = 1 - hypot (x, y) / reach,
-               w = s < k ? fmax (far * far, 1e-9) : 1;
-        for (size_t c = 0; c < 2; c++)
-            out[c] += w
-                      * (t->shift[2 * j + c] + t->gradient[4 * j + 2 * c] * x
-                         + t->gradient[4 * j + 2 * c + 1] * y);
-        sum += w;
-    }
-    out[0] /= sum, out[1] /= sum;
+    const double *g = t->gradient + 4 * o, dx = x[0] - t->place[2*o], dy = x[1] - t->place[2*o + 1];
+    for (size_t c = 0; c < 2; c++) to[c] = x[c] + t->shift[2*o + c] + g[2*c] * dx + g[2*c + 1] * dy;
 }
 
 /* ---- faces of pre-cracks ------------------------------------------------------------------------------- */
@@ -172,12 +130,10 @@ static void face_of (const pg_tiles *t, const double *a, const double *b, int si
            off = (side ? 1e-3 : -1e-3) * t->widest;
     for (size_t k = 0; k < n; k++) {
         double s = (double) k / (double) (n - 1),
-               at[2] = { a[0] + s * dx - off * dy / length, a[1] + s * dy + off * dx / length }, u[2];
+               at[2] = { a[0] + s * dx - off * dy / length, a[1] + s * dy + off * dx / length };
         long o = pg_tiles_inside (t, at) ? beside (t, at) : -1;
         out[2*k] = out[2*k + 1] = NAN;
-        if (o < 0) continue;
-        shift_at (t, (size_t) o, at, u);
-        out[2*k] = at[0] + u[0], out[2*k + 1] = at[1] + u[1];
+        if (o >= 0) move (t, (size_t) o, at, out + 2*k);
     }
 }
 
@@ -201,85 +157,82 @@ done:
     return status;
 }
 
-/* ---- pieces -------------------------------------------------------------------------------------------- */
-/* Owner of the pixel at rest that holds a place. */
-static int rest_at (const warp *w, double a, double b)
+/* ---- pixels -------------------------------------------------------------------------------------------- */
+/* Owner of the pixel of a screen that holds a place. */
+static int owner_at (const pg_screen *s, double a, double b)
 {
-    double i = floor ((a - w->rest->left) * w->rest->scale), j = floor ((w->rest->top - b) * w->rest->scale);
-    if (!(i >= 0 && i < w->rest->width && j >= 0 && j < w->rest->height)) return PG_EMPTY;
-    return w->rest->owner[(size_t) j * (size_t) w->rest->width + (size_t) i];
+    double i = floor ((a - s->left) * s->scale), j = floor ((s->top - b) * s->scale);
+    if (!(i >= 0 && i < s->width && j >= 0 && j < s->height)) return PG_EMPTY;
+    return s->owner[(size_t) j * (size_t) s->width + (size_t) i];
 }
 
-/* A triangle with its corners in the undeformed body (a, m) and on the screen (v, pixels):
- * gives to o the pixels that come from pixels of o. Triangles overlap by 3 % of their size,
- * which closes gaps between pieces of different owners. */
-static void fill (const warp *w, const double a[3][2], const double v[3][2], int o)
+/* How far about a point, in spacings, neighbours lend it pixels. */
+static const double beyond = 1.1;
+
+/* May point o have a pixel that comes from a place x of another one? Only where that holds to it, and half a
+ * spacing beyond its own pixels: what closes gaps between neighbours. */
+static int lends (const pg_tiles *t, size_t o, const double *x, int other)
 {
-    pg_screen *s = w->screen;
-    double area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
-    int first[2], last[2], most[2] = { s->width, s->height };
-    if (!(fabs (area) > 1e-9)) return;
-    for (int c = 0; c < 2; c++) {
-        double low = ceil (fmin (fmin (v[0][c], v[1][c]), v[2][c]) - 0.5 - 1e-6),
-               high = floor (fmax (fmax (v[0][c], v[1][c]), v[2][c]) - 0.5 + 1e-6);
-        first[c] = low < 0 ? 0 : low < most[c] ? (int) low : most[c];
-        last[c] = high < 0 ? -1 : high < most[c] ? (int) high : most[c] - 1;
-    }
-    for (int j = first[1]; j <= last[1]; j++)
-        for (int i = first[0]; i <= last[0]; i++) {
-            double x = i + 0.5, y = j + 0.5, b[3];
-            for (int k = 0; k < 3; k++) {
-                const double *p = v[(k + 1) % 3], *q = v[(k + 2) % 3];
-                b[k] = ((p[0] - x) * (q[1] - y) - (q[0] - x) * (p[1] - y)) / area;
-            }
-            if (b[0] < -0.03 || b[1] < -0.03 || b[2] < -0.03) continue;  /* neighbours overlap a little */
-            if (rest_at (w, b[0] * a[0][0] + b[1] * a[1][0] + b[2] * a[2][0],
-                         b[0] * a[0][1] + b[1] * a[1][1] + b[2] * a[2][1])
-                == o)
-                s->owner[(size_t) j * (size_t) s->width + (size_t) i] = o;
-        }
+    double dx = fabs (x[0] - t->place[2*o]), dy = fabs (x[1] - t->place[2*o + 1]);
+    return other >= 0 && fmax (dx, dy) < beyond * t->spacing[o] && !torn (t, o, (size_t) other);
 }
 
-/* The owners of the undeformed pixels in one piece of the grid and one pixel around it;
- * returns their number. */
-static int owners_in (const warp *w, const double *low, int *owner)
+/* Pixels of the screen that the square of half edge r (m) about point o moves to; 0: they are nowhere. */
+static int box_of (const pg_tiles *t, const pg_screen *s, size_t o, double r, int from[2], int to[2])
 {
-    int n = 0;
-    int from[2] = { (int) floor ((low[0] - w->rest->left) * w->rest->scale) - 1,
-                    (int) floor ((w->rest->top - low[1] - w->step) * w->rest->scale) - 1 };
-    int more = (int) ceil (w->step * w->rest->scale) + 2;
-    for (int j = from[1]; j <= from[1] + more; j++)
-        for (int i = from[0]; i <= from[0] + more; i++) {
-            if (i < 0 || j < 0 || i >= w->rest->width || j >= w->rest->height) continue;
-            int o = w->rest->owner[(size_t) j * (size_t) w->rest->width + (size_t) i], k = 0;
-            if (o < 0) continue;
-            while (k < n && owner[k] != o) k++;
-            if (k == n && n < OWNERS) owner[n++] = o;
-        }
-    return n;
-}
-
-/* Moves the corners of one piece of the grid as point o sees them, and fills it with the pixels of o. */
-static void draw_piece (const warp *w, const double *low, int o)
-{
-    static const int round[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
-    double a[4][2], v[4][2];
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY }, at[2];
+    int most[2] = { s->width, s->height };
     for (int k = 0; k < 4; k++) {
-        double u[2];
-        for (int c = 0; c < 2; c++) a[k][c] = low[c] + round[k][c] * w->step;
-        shift_at (w->t, (size_t) o, a[k], u);
-        v[k][0] = (a[k][0] + u[0] - w->screen->left) * w->screen->scale,
-        v[k][1] = (w->screen->top - a[k][1] - u[1]) * w->screen->scale;
-        if (!isfinite (v[k][0]) || !isfinite (v[k][1])) return;
+        const double x[2] = { t->place[2*o] + (k & 1 ? r : -r), t->place[2*o + 1] + (k & 2 ? r : -r) };
+        move (t, o, x, at);
+        at[0] = (at[0] - s->left) * s->scale, at[1] = (s->top - at[1]) * s->scale;
+        for (int c = 0; c < 2; c++) low[c] = fmin (low[c], at[c]), high[c] = fmax (high[c], at[c]);
     }
-    for (int half = 0; half < 2; half++) {
-        double b[3][2], x[3][2];
-        for (int k = 0; k < 3; k++) {
-            int corner = k == 0 ? 0 : half + k;
-            memcpy (b[k], a[corner], sizeof b[k]), memcpy (x[k], v[corner], sizeof x[k]);
+    for (int c = 0; c < 2; c++)
+        from[c] = (int) fmin (fmax (floor (low[c]), 0), most[c]),
+        to[c] = (int) fmin (fmax (ceil (high[c]), 0), most[c]);
+    return isfinite (low[0] + low[1] + high[0] + high[1]);
+}
+
+/* Gives the pixels of the screen that come from those of point o, within r (m) of it, to it: each asks where
+ * it comes from. spare: those that no point has got, from places of its neighbours. */
+static void move_part (const pg_tiles *t, const pg_screen *rest, size_t o, double r, int spare, pg_screen *s)
+{
+    const double *g = t->gradient + 4 * o, *at = t->place + 2 * o, *u = t->shift + 2 * o;
+    double det = (1 + g[0]) * (1 + g[3]) - g[1] * g[2], x[2];
+    int from[2], to[2];
+    if (!box_of (t, s, o, r, from, to) || !(fabs (det) > 1e-6)) return;
+    for (int j = from[1]; j < to[1]; j++)
+        for (int i = from[0]; i < to[0]; i++) {
+            double dx = s->left + (i + 0.5) / s->scale - at[0] - u[0],
+                   dy = s->top - (j + 0.5) / s->scale - at[1] - u[1];
+            int *owner = &s->owner[(size_t) j * (size_t) s->width + (size_t) i], own;
+            if (spare && *owner >= 0) continue;
+            x[0] = at[0] + ((1 + g[3]) * dx - g[1] * dy) / det;
+            x[1] = at[1] + ((1 + g[0]) * dy - g[2] * dx) / det;
+            own = owner_at (rest, x[0], x[1]);
+            if (spare ? lends (t, o, x, own) : own == (int) o) *owner = (int) o;
         }
-        fill (w, (const double (*)[2]) b, (const double (*)[2]) x, o);
+}
+
+/* All pixels of the body at rest, then those between parts that are apart. */
+static pg_status move_all (const pg_tiles *t, const pg_screen *rest, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    double *far = NULL;
+    PG_ALLOC (far, t->n);
+    for (size_t p = 0; p < (size_t) rest->width * (size_t) rest->height; p++) {
+        size_t o = rest->owner[p] < 0 ? 0 : (size_t) rest->owner[p];
+        double x = rest->left + ((double) (p % (size_t) rest->width) + 0.5) / rest->scale,
+               y = rest->top - ((double) (p / (size_t) rest->width) + 0.5) / rest->scale,
+               d = fmax (fabs (x - t->place[2*o]), fabs (y - t->place[2*o + 1])) + 1 / rest->scale;
+        if (rest->owner[p] >= 0 && d > far[o]) far[o] = d;
     }
+    for (size_t k = 0; k < t->n; k++) if (far[k] > 0) move_part (t, rest, k, far[k], 0, s);
+    for (size_t k = 0; k < t->n; k++) move_part (t, rest, k, beyond * t->spacing[k], 1, s);
+done:
+    pg_free (far);
+    return status;
 }
 
 /* The undeformed body on a screen of its own, 1.5 times as fine as the picture (its longer
@@ -304,50 +257,29 @@ done:
     return status;
 }
 
-/* Every piece of the grid, once for each point that owns a part of it. */
-static void displace (const warp *w)
-{
-    for (long j = 0; j < w->count[1]; j++)
-        for (long i = 0; i < w->count[0]; i++) {
-            double low[2] = { w->origin[0] + (double) i * w->step, w->origin[1] + (double) j * w->step };
-            int owner[OWNERS], n = owners_in (w, low, owner);
-            for (int k = 0; k < n; k++) draw_piece (w, low, owner[k]);
-        }
-}
-
 /* Without displacements the screen shows the body at rest. */
-static void copy (const warp *w)
+static void copy (const pg_screen *rest, pg_screen *s)
 {
-    pg_screen *s = w->screen;
     for (int j = 0; j < s->height; j++)
         for (int i = 0; i < s->width; i++)
-            s->owner[(size_t) j * (size_t) s->width + (size_t) i] = rest_at (w,
-                                                                             s->left + (i + 0.5) / s->scale,
-                                                                             s->top - (j + 0.5) / s->scale);
+            s->owner[(size_t) j * (size_t) s->width + (size_t) i] =
+                owner_at (rest, s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale);
 }
 
-/* The grid is as fine as half a spacing or three pixels, with at most 2000 pieces along its longer side. */
+/* Loose points are drawn with room about them, as what closes their gaps may reach beyond the screen. */
 pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
 {
     pg_status status = PG_OK;
     pg_screen rest = { 0 };
-    if (!t->shift && t->outline) return pg_tiles_rest (t, screen);
+    if (!t->shift && (t->outline || !t->loose)) return pg_tiles_rest (t, screen);
     PG_TRY (open_rest (t, screen, &rest));
-    warp w = {
-        .t = t, .rest = &rest, .screen = screen, .origin = { rest.left, rest.top - rest.height / rest.scale }
-    };
     if (!t->shift) {
-        copy (&w);
+        copy (&rest, screen);
         goto done;
     }
     PG_TRY (find_limit (t));
     PG_TRY (find_gradients (t));
-    double least = t->widest;
-    for (size_t k = 0; k < t->n; k++) least = fmin (least, t->spacing[k]);
-    w.step = fmax (fmax (0.5 * least, 3 / rest.scale), fmax (rest.width, rest.height) / rest.scale / 2000);
-    for (int c = 0; c < 2; c++)
-        w.count[c] = (long) ceil ((c ? rest.height : rest.width) / rest.scale / w.step);
-    displace (&w);
+    PG_TRY (move_all (t, &rest, screen));
 done:
     pg_screen_close (&rest);
     return status;

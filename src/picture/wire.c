@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Lines on pictures: pre-cracks (as they are in 2D; in 3D where they meet the plane shown, or their
- * outline), the displaced faces of cracks and the box of the body. They are projected by the eye of the
- * sheet and drawn over the painted pixels. */
+ * outline), the displaced faces of cracks, the box of the body, and the coordinate axes as the eye sees them.
+ * They are projected by the eye of the sheet and drawn over the painted pixels. */
 #include "picture_private.h"
 #include <math.h>
 #include <string.h>
@@ -63,29 +63,20 @@ static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
-/* 1 if a place is not hidden behind what the screen shows there, to within one and a half
- * cells, since cubes around points are coarser than the crack. */
-static int in_sight (const pg_sheet *p, const pg_grid *g, const pg_screen *s, const double *x)
-{
-    double i = floor ((pg_along (p->eye.right, x, 3) - s->left) * s->scale),
-           j = floor ((s->top - pg_along (p->eye.up, x, 3)) * s->scale);
-    if (!(i >= 0 && i < s->width && j >= 0 && j < s->height)) return 1;
-    double slack = 1.5 * fmax (fmax (g->step[0], g->step[1]), g->step[2]);
-    return s->depth[(size_t) j * (size_t) s->width + (size_t) i] <= pg_along (p->eye.toward, x, 3) + slack;
-}
-
 /* Adds a line in space to the path, inside the box, and where a screen is given only what is
- * in sight, tested at 200 places. */
+ * in sight, tested at 200 places, to within one and a half cells, since cubes around points are coarser than
+ * the crack. */
 static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                           const pg_screen *screen, const double *a, const double *b)
 {
     enum { PARTS = 200 };
-    double from, to, x[3], px, py;
+    double from, to, x[3], at[3], px, py, slack = 1.5 * fmax (fmax (g->step[0], g->step[1]), g->step[2]);
     int pen = 0;
     if (!clip_line (g, a, b, &from, &to)) return;
     for (int k = 0; k <= PARTS; k++) {
         for (int c = 0; c < 3; c++) x[c] = a[c] + (from + (to - from) * k / PARTS) * (b[c] - a[c]);
-        if (screen && !in_sight (p, g, screen, x)) {
+        if (screen) pg_screen_place (screen, &p->eye, x, at);
+        if (screen && !pg_in_sight (screen, at, slack)) {
             pen = 0;
             continue;
         }
@@ -202,4 +193,40 @@ void pg_wire_box (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g
     if (hidden) cairo_set_dash (cr, (double[]) { 6, 6 }, 2, 0);
     cairo_stroke (cr);
     cairo_restore (cr);
+}
+
+/* Arrows along x, y, z with their names; those towards the eye last. An axis that points straight at the eye,
+ * or away from it, is a dot. */
+void pg_wire_triad (const pg_sheet *p, cairo_t *cr, double x, double y, double length)
+{
+    static const double colour[3][3] = { { 0.75, 0.15, 0.12 }, { 0.10, 0.50, 0.20 }, { 0.10, 0.30, 0.70 } };
+    int order[3] = { 0, 1, 2 };
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 2; j++)
+            if (p->eye.toward[order[j]] > p->eye.toward[order[j + 1]]) {
+                int swap = order[j];
+                order[j] = order[j + 1], order[j + 1] = swap;
+            }
+    cairo_set_line_width (cr, 3);
+    for (int k = 0; k < 3; k++) {
+        int a = order[k];
+        double dx = length * p->eye.right[a], dy = -length * p->eye.up[a], size = hypot (dx, dy), arm = 11;
+        cairo_set_source_rgb (cr, colour[a][0], colour[a][1], colour[a][2]);
+        if (size < 0.15 * length) {                    /* straight at the eye, or away from it */
+            cairo_arc (cr, x, y, 5, 0, 6.283185307179586);
+            cairo_fill (cr);
+            pg_text (cr, (const char[2]) { "xyz"[a], 0 }, 0.85 * PG_FONT, x - 16, y + 14, 0.5, 0, 1);
+            continue;
+        }
+        cairo_move_to (cr, x, y);
+        cairo_line_to (cr, x + dx, y + dy);
+        cairo_stroke (cr);
+        double ux = dx / size, uy = dy / size;
+        cairo_move_to (cr, x + dx + 3 * ux, y + dy + 3 * uy);
+        cairo_line_to (cr, x + dx - arm * ux - 0.4 * arm * uy, y + dy - arm * uy + 0.4 * arm * ux);
+        cairo_line_to (cr, x + dx - arm * ux + 0.4 * arm * uy, y + dy - arm * uy - 0.4 * arm * ux);
+        cairo_fill (cr);
+        pg_text (cr, (const char[2]){ "xyz"[a], 0 }, 0.85 * PG_FONT, x + dx + 17 * ux, y + dy + 17 * uy, 0.5,
+                 0, 1);
+    }
 }

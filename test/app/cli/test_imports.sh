@@ -188,7 +188,7 @@ has "a facet in spacings beside graded points" 'warning: line 8: solver.facet = 
 sed -i 's/facet: 1 spacing/facet: 0.1/' scene.yaml; "$perigal" check scene.yaml > out 2> err; ! grep -q 'counts the mean' out; verdict "a length of its own is none of it" $?
 
 # pictures: libraries that cannot be loaded, a section through no points
-mkdir lib; for f in libcairo.so.2 libpng16.so.16; do echo broken > lib/$f; done
+mkdir lib; echo broken > lib/libcairo.so.2
 printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing: 1\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n%s\n' "$held" > scene.yaml
 LD_LIBRARY_PATH=$PWD/lib "$perigal" run scene.yaml -o bare > out 2> err; code=$?
 [ $code -eq 0 ] && grep -q '"pictures could not be drawn, damage.png among them: ' bare/report.json && grep -q '"outcome": "done"' bare/report.json && [ ! -e bare/checkpoint.nc ]
