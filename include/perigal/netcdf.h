@@ -55,5 +55,9 @@ int       pg_netcdf_text    (const pg_netcdf *file, int variable, const char *na
 /* The n numbers of an attribute; 0, and the values stay: there is none, or it has another length. */
 int       pg_netcdf_numbers (const pg_netcdf *file, int variable, const char *name, size_t n, double *value);
 
+/* Turns n numbers of `size` bytes (4, 8; others stay) from the order of the host into that of classic files,
+ * the most significant byte first, or back. */
+void      pg_netcdf_swap (void *value, size_t n, size_t size);
+
 PG_API_END
 #endif

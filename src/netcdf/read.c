@@ -158,17 +158,25 @@ static int long_at (const unsigned char *at, int type, long *value)
     }
 }
 
-/* n values of 8 bytes as they are: most files hold nothing else. */
-static void copy_wide (void *to, const unsigned char *at, size_t n)
+/* Each value is turned round where it lies. */
+void pg_netcdf_swap (void *value, size_t n, size_t size)
 {
-    uint64_t bits;
-    for (size_t i = 0; i < n; i++) {
-        memcpy (&bits, at + 8 * i, 8);
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-        bits = __builtin_bswap64 (bits);
-#endif
-        memcpy ((char *) to + 8 * i, &bits, 8);
+    for (size_t i = 0; size == 8 && i < n; i++) {
+        uint64_t wide;
+        memcpy (&wide, (char *) value + 8 * i, 8);
+        wide = __builtin_bswap64 (wide);
+        memcpy ((char *) value + 8 * i, &wide, 8);
     }
+    for (size_t i = 0; size == 4 && i < n; i++) {
+        uint32_t half;
+        memcpy (&half, (char *) value + 4 * i, 4);
+        half = __builtin_bswap32 (half);
+        memcpy ((char *) value + 4 * i, &half, 4);
+    }
+#else
+    (void) value, (void) n, (void) size;
+#endif
 }
 
 /* Converts n values of a file that lie in a row; 0: one of them does not fit. */
@@ -178,7 +186,7 @@ static int to_doubles (const unsigned char *at, int type, size_t n, void *to)
 {
     double *value = to;
     size_t size = nc_size_of (type);
-    if (type == PG_NC_DOUBLE) copy_wide (value, at, n);
+    if (type == PG_NC_DOUBLE) pg_netcdf_swap (memcpy (value, at, n * size), n, size);
     else for (size_t i = 0; i < n; i++) value[i] = double_at (at + i * size, type);
     return 1;
 }
@@ -188,7 +196,7 @@ static int to_longs (const unsigned char *at, int type, size_t n, void *to)
     long *value = to;
     size_t size = nc_size_of (type);
     int fits = 1;
-    if (type == PG_NC_INT64) copy_wide (value, at, n);
+    if (type == PG_NC_INT64) pg_netcdf_swap (memcpy (value, at, n * size), n, size);
     else for (size_t i = 0; i < n && fits; i++) fits = long_at (at + i * size, type, &value[i]);
     return fits;
 }

@@ -209,23 +209,12 @@ done:
     return status;
 }
 
-/* PATH.new (pg_free). */
-static pg_status name_new (char **out, const char *path)
-{
-    pg_status status = PG_OK;
-    size_t size = strlen (path) + 5;
-    PG_ALLOC (*out, size);
-    snprintf (*out, size, "%s.new", path);
-done:
-    return status;
-}
-
 pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
     checkpoint c = { 0 };
     char *fresh = NULL;
-    PG_TRY (name_new (&fresh, path));
+    PG_TRY (pg_disk_fresh (&fresh, path));
     c.path = fresh;
     status = write_file (&c, walk, context);
     if (status != PG_OK) remove (fresh);
@@ -238,7 +227,7 @@ pg_status pg_checkpoint_commit (const char *path)
 {
     pg_status status = PG_OK;
     char *fresh = NULL;
-    PG_TRY (name_new (&fresh, path));
+    PG_TRY (pg_disk_fresh (&fresh, path));
     if (rename (fresh, path) != 0) {
         status = pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
         remove (fresh);
@@ -253,7 +242,7 @@ done:
 void pg_checkpoint_drop (const char *path)
 {
     char *fresh = NULL;
-    if (name_new (&fresh, path) == PG_OK) remove (fresh);
+    if (pg_disk_fresh (&fresh, path) == PG_OK) remove (fresh);
     pg_free (fresh);
 }
 

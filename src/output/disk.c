@@ -29,6 +29,16 @@ done:
     return status;
 }
 
+pg_status pg_disk_fresh (char **out, const char *path)
+{
+    pg_status status = PG_OK;
+    size_t size = strlen (path) + 5;
+    PG_ALLOC (*out, size);
+    snprintf (*out, size, "%s.new", path);
+done:
+    return status;
+}
+
 /* Used when a file is opened for appending: what lies behind the remembered length goes. */
 pg_status pg_disk_cut (const char *path, int file, long bytes)
 {

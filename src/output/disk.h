@@ -8,6 +8,8 @@
 /* Writes `bytes` bytes at that offset, in as many system calls as it takes. After a failure
  * some of them may be there; the caller cuts the file. */
 pg_status pg_disk_write (const char *path, int file, const void *data, size_t bytes, long offset);
+/* PATH.new (pg_free): the name under which a file is written before it takes the place of PATH. */
+pg_status pg_disk_fresh (char **out, const char *path);
 /* Shortens a file to that many bytes. */
 pg_status pg_disk_cut   (const char *path, int file, long bytes);
 /* Creates a file to be read and written. A regular file or a symbolic link in its place is

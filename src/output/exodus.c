@@ -114,9 +114,7 @@ static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *t
 {
     pg_status status = PG_OK;
     char *fresh = NULL;
-    size_t size = strlen (f->path) + 5;
-    PG_ALLOC (fresh, size);
-    snprintf (fresh, size, "%s.new", f->path);
+    PG_TRY (pg_disk_fresh (&fresh, f->path));
     exodus_layout layout = {
         fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, 0, NULL, share
     };
@@ -150,10 +148,10 @@ done:
 /* Writes the number of steps into the header, the most significant byte first. */
 static pg_status count_records (pg_exodus *f, size_t count)
 {
-    unsigned char bytes[8];
+    uint64_t bytes = count;
     size_t m = f->wide ? 8 : 4;
-    for (size_t k = 0; k < m; k++) bytes[m - 1 - k] = (unsigned char) ((uint64_t) count >> (8 * k));
-    return pg_disk_write (f->path, f->file, bytes, m, 4);
+    pg_netcdf_swap (&bytes, 1, sizeof bytes);
+    return pg_disk_write (f->path, f->file, (const char *) &bytes + sizeof bytes - m, m, 4);
 }
 
 /* PG_E_FILE unless the file was made for the same number of points and components: otherwise
@@ -210,21 +208,6 @@ void pg_exodus_size (const pg_exodus *f, long *steps, long *bytes)
     *bytes = f->begin + (long) f->step * f->record;
 }
 
-/* Turns n doubles into the byte order of the file. */
-static void most_significant_first (double *value, size_t n)
-{
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    for (size_t i = 0; i < n; i++) {
-        uint64_t bits;
-        memcpy (&bits, &value[i], sizeof bits);
-        bits = __builtin_bswap64 (bits);
-        memcpy (&value[i], &bits, sizeof bits);
-    }
-#else
-    (void) value, (void) n;
-#endif
-}
-
 /* Writes the components of one field one behind the other from byte *at on, and moves *at
  * behind them. The file has one array per component, the caller one per field. */
 static pg_status write_view (pg_exodus *f, const pg_field_view *view, long *at)
@@ -233,7 +216,7 @@ static pg_status write_view (pg_exodus *f, const pg_field_view *view, long *at)
     size_t m = (size_t) view->components, bytes = f->n * sizeof (double);
     for (size_t c = 0; c < m; c++, *at += (long) bytes) {
         for (size_t i = 0; i < f->n; i++) f->buffer[i] = view->value[i * m + c];
-        most_significant_first (f->buffer, f->n);
+        pg_netcdf_swap (f->buffer, f->n, sizeof *f->buffer);
         PG_TRY (pg_disk_write (f->path, f->file, f->buffer, bytes, *at));
     }
 done:
@@ -249,7 +232,7 @@ static pg_status write_record (pg_exodus *f, double time, const pg_field_view *f
     long start = f->begin + (long) f->step * f->record, at = start + (long) sizeof time;
     for (size_t v = 0; v < f->nfield; v++) PG_TRY (write_view (f, &fields[v], &at));
     if (f->extra) PG_TRY (write_view (f, &f->field[f->nfield], &at));
-    most_significant_first (&time, 1);
+    pg_netcdf_swap (&time, 1, sizeof time);
     PG_TRY (pg_disk_write (f->path, f->file, &time, sizeof time, start));
     PG_TRY (count_records (f, f->step + 1));
 done:
@@ -290,7 +273,7 @@ static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, co
     if (pread (f->file, old, (size_t) f->record, f->begin + (long) k * f->record) != f->record)
         PG_FAIL (PG_E_FILE, "%s: %s", f->path, errno ? strerror (errno) : "it has become shorter");
     double time = old[0], *to = new + 1;
-    most_significant_first (&time, 1);                 /* time, big-endian in the file, to the host's order */
+    pg_netcdf_swap (&time, 1, sizeof time);               /* from the order of the file to that of the host */
     new[0] = old[0];
     for (size_t v = 0; v < f->nvar; v++) {
         const double *from = old + 1 + v * f->n;
@@ -301,7 +284,7 @@ static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, co
         for (size_t i = 0; i < each * m; i++) *to++ = none ? 0 : from[piece[i / each].point[i % each]];
     }
     for (size_t i = 0; i < m; i++) to[i] = time >= piece[i].since;
-    most_significant_first (to, m);
+    pg_netcdf_swap (to, m, sizeof *to);
     PG_TRY (pg_disk_write (wide->path, wide->file, new, (size_t) wide->record,
                            wide->begin + (long) k * wide->record));
     wide->step++;
@@ -326,17 +309,6 @@ done:
     return status;
 }
 
-/* PATH.new. */
-static pg_status name_fresh (char **out, const char *path)
-{
-    pg_status status = PG_OK;
-    size_t size = strlen (path) + 5;
-    PG_ALLOC (*out, size);
-    snprintf (*out, size, "%s.new", path);
-done:
-    return status;
-}
-
 pg_status pg_exodus_prepare_pieces (const pg_exodus *f, const pg_cloud *cloud, const char *title, size_t n,
                                     const pg_crack_face *piece)
 {
@@ -349,7 +321,7 @@ pg_status pg_exodus_prepare_pieces (const pg_exodus *f, const pg_cloud *cloud, c
         if (piece[i / each].point[i % each] >= f->n)
             PG_FAIL (PG_E_USAGE, "%s: a piece of a crack hangs on point %zu of %zu", f->path,
                      piece[i / each].point[i % each], f->n);
-    PG_TRY (name_fresh (&fresh, f->path));
+    PG_TRY (pg_disk_fresh (&fresh, f->path));
     wide = (pg_exodus) { .file = -1, .dim = f->dim, .path = fresh };
     exodus_layout layout = {
         fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, piece, NULL
@@ -367,7 +339,7 @@ pg_status pg_exodus_commit_pieces (const char *path)
 {
     pg_status status = PG_OK;
     char *fresh = NULL;
-    PG_TRY (name_fresh (&fresh, path));
+    PG_TRY (pg_disk_fresh (&fresh, path));
     if (rename (fresh, path) != 0 && errno != ENOENT) PG_FAIL (PG_E_FILE, "%s: %s", fresh, strerror (errno));
 done:
     pg_free (fresh);
@@ -377,7 +349,7 @@ done:
 void pg_exodus_drop_pieces (const char *path)
 {
     char *fresh = NULL;
-    if (name_fresh (&fresh, path) == PG_OK) remove (fresh);
+    if (pg_disk_fresh (&fresh, path) == PG_OK) remove (fresh);
     pg_free (fresh);
 }
 

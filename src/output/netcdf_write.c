@@ -96,29 +96,6 @@ static void append_name (netcdf_writer *w, bytes *b, const char *name)
     append (w, b, name, strlen (name));
 }
 
-/* Copies n values of that many bytes and turns them into the order of the file. */
-static void most_significant_first (unsigned char *to, const void *value, size_t n, size_t size)
-{
-    const unsigned char *from = value;
-    uint64_t wide;
-    uint32_t half;
-    memcpy (to, value, n * size);
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    for (size_t i = 0; size == 8 && i < n; i++) {
-        memcpy (&wide, from + 8 * i, 8);
-        wide = __builtin_bswap64 (wide);
-        memcpy (to + 8 * i, &wide, 8);
-    }
-    for (size_t i = 0; size == 4 && i < n; i++) {
-        memcpy (&half, from + 4 * i, 4);
-        half = __builtin_bswap32 (half);
-        memcpy (to + 4 * i, &half, 4);
-    }
-#else
-    (void) from, (void) wide, (void) half;
-#endif
-}
-
 /* ---- definitions --------------------------------------------------------------------------------------- */
 pg_status netcdf_create (netcdf_writer **out, const char *path, int version)
 {
@@ -236,7 +213,8 @@ void netcdf_define_numbers (netcdf_writer *w, int variable, const char *name, in
     append_head (w, list, name, type, n);
     /* all that are written have 4 or 8 bytes, so that none needs padding of its own */
     for (size_t k = 0; k < n; k++) {
-        most_significant_first (one, (const char *) value + k * size, 1, size);
+        memcpy (one, (const char *) value + k * size, size);
+        pg_netcdf_swap (one, 1, size);
         append (w, &list->text, one, size);
     }
 }
@@ -338,7 +316,8 @@ pg_status netcdf_put (netcdf_writer *w, int variable_number, size_t first, size_
     for (size_t done = 0, part; done < n; done += part) {
         part = (BUFFER - w->fill) / size;
         if (part > n - done) part = n - done;
-        most_significant_first (w->buffer + w->fill, (const char *) value + done * size, part, size);
+        memcpy (w->buffer + w->fill, (const char *) value + done * size, part * size);
+        pg_netcdf_swap (w->buffer + w->fill, part, size);
         w->fill += part * size;
         if (BUFFER - w->fill < 8) PG_TRY (flush (w));
     }
