@@ -1,14 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Bodies with one dimension as a chart. */
 #include "picture_private.h"
-#include <stdlib.h>
-
-/* Order of pairs by their first number. */
-static int by_place (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
 
 /* 1D bodies: a chart of the value over the (displaced) place, one curve per panel, sorted by
  * place. */
@@ -27,7 +19,7 @@ pg_status pg_draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, 
         const double *u = panel[k].u;
         for (size_t i = 0; i < n; i++)
             pair[2 * i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2 * i + 1] = panel[k].value[i];
-        pg_sort (pair, n, 2 * sizeof (double), by_place);
+        pg_sort (pair, n, 2 * sizeof (double), pg_ascending_numbers);
         for (size_t i = 0; i < n; i++) x[k * n + i] = pair[2*i], y[k * n + i] = pair[2*i + 1];
         curve[k] = (pg_curve) { panel[k].title, n, x + k * n, y + k * n, n <= 60 };
     }

@@ -19,8 +19,7 @@ static cairo_status_t write_bytes (void *closure, const unsigned char *data, uns
     return CAIRO_STATUS_WRITE_ERROR;
 }
 
-/* 1 if the path ends so, in capitals or not. */
-static int ends_with (const char *path, const char *ending)
+int pg_ends_with (const char *path, const char *ending)
 {
     size_t n = strlen (path), m = strlen (ending);
     return n >= m && strcasecmp (path + n - m, ending) == 0;
@@ -31,8 +30,8 @@ static int ends_with (const char *path, const char *ending)
 pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double height)
 {
     pg_status status = PG_OK;
-    *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg") };
-    if (!c->svg && !ends_with (path, ".png"))
+    *c = (pg_canvas) { .path = path, .svg = pg_ends_with (path, ".svg") };
+    if (!c->svg && !pg_ends_with (path, ".png"))
         PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
     PG_TRY (pg_cairo_load ());
     PG_TRY (pg_file_create (&c->file, path));
@@ -79,6 +78,13 @@ done:
     if (status != PG_OK && c->file) remove (c->path);
     *c = (pg_canvas) { 0 };
     return status;
+}
+
+void pg_stroke (cairo_t *cr, double width, double red, double green, double blue)
+{
+    cairo_set_source_rgb (cr, red, green, blue);
+    cairo_set_line_width (cr, width);
+    cairo_stroke (cr);
 }
 
 /* 1 where raised text begins, -1 where lowered text does, else 0. */

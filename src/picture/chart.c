@@ -77,9 +77,7 @@ static void draw_marker (cairo_t *cr, size_t k, double x, double y)
         double a = kind == 5 ? 0 : 0.75 * s, b = kind == 5 ? s : 0.75 * s;
         cairo_move_to (cr, x - b, y - a), cairo_line_to (cr, x + b, y + a);
         cairo_move_to (cr, x - a, y + b), cairo_line_to (cr, x + a, y - b);
-        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-        cairo_set_line_width (cr, 4);
-        cairo_stroke (cr);
+        pg_stroke (cr, 4, rgb[0], rgb[1], rgb[2]);
         return;
     }
     cairo_close_path (cr);
@@ -163,9 +161,7 @@ static void draw_slope (const chart *c, cairo_t *cr, const pg_curve *curve, size
     cairo_close_path (cr);
     cairo_set_source_rgba (cr, rgb[0], rgb[1], rgb[2], 0.12);
     cairo_fill_preserve (cr);
-    cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
-    cairo_set_line_width (cr, 1.5);
-    cairo_stroke (cr);
+    pg_stroke (cr, 1.5, 0.25, 0.25, 0.25);
     snprintf (text, sizeof text, "%.3g", fabs (slope->order));
     pg_text (cr, text, size, px[2] + (rising ? 8 : -8), 0.5 * (py[0] + py[1]), rising ? 0 : 1, 0, 1);
     pg_text (cr, "1", size, 0.5 * (px[0] + px[1]), py[2] + 0.8 * size, 0.5, 0, 1);
@@ -269,9 +265,7 @@ static void draw_legend (const chart *c, cairo_t *cr)
     cairo_rectangle (cr, floor (x) + 0.5, floor (y) + 0.5, floor (w), floor (h));
     cairo_set_source_rgba (cr, 1, 1, 1, 0.9);
     cairo_fill_preserve (cr);
-    cairo_set_source_rgb (cr, 0.6, 0.6, 0.6);
-    cairo_set_line_width (cr, 1.5);
-    cairo_stroke (cr);
+    pg_stroke (cr, 1.5, 0.6, 0.6, 0.6);
     for (size_t k = 0; k < legend_rows (c); k++) {
         double middle = y + 0.5 * CHART_GAP + ((double) k + 0.5) * row;
         (k < c->ncurve ? set_pen : set_pale_pen) (cr, k % c->ncurve);
@@ -342,9 +336,7 @@ static void draw_marks (const chart *c, cairo_t *cr)
         cairo_set_source_rgb (cr, 1, 1, 1);
         cairo_set_line_width (cr, 5);
         cairo_stroke_preserve (cr);
-        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-        cairo_set_line_width (cr, 3);
-        cairo_stroke (cr);
+        pg_stroke (cr, 3, rgb[0], rgb[1], rgb[2]);
         if (!m->text || k >= CHART_NOTES) continue;
         const double *box = c->note[k];
         cairo_rectangle (cr, box[0], box[1], box[2], box[3]);
@@ -480,10 +472,8 @@ static void draw_chart (const chart *c, cairo_t *cr)
 {
     draw_grid (c, cr);
     if (c->style->zero) draw_zero (c, cr);
-    cairo_set_source_rgb (cr, 0, 0, 0);
-    cairo_set_line_width (cr, 2);
     cairo_rectangle (cr, floor (c->left) + 0.5, floor (c->top) + 0.5, floor (c->width), floor (c->height));
-    cairo_stroke (cr);
+    pg_stroke (cr, 2, 0, 0, 0);
     pg_axis_draw (&c->x, cr, c->left, c->top, c->width, c->height);
     pg_axis_draw (&c->y, cr, c->left, c->top, c->width, c->height);
     cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);

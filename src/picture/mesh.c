@@ -392,9 +392,7 @@ static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, d
         for (size_t i = 0; i < m->sides[t].n; i++)
             path_of_rim (d, cr, s, m->sides[t].element[i], m->sides[t].side[i]);
         d->sheet.colour ((double) k / PG_CATEGORIES, rgb);
-        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-        cairo_set_line_width (cr, 7 * pixel);
-        cairo_stroke (cr);
+        pg_stroke (cr, 7 * pixel, rgb[0], rgb[1], rgb[2]);
     }
     for (size_t t = 0; t < m->nnodes && k <= d->categories; t++) {
         if (strcmp (d->name[k], m->nodes[t].name) != 0) continue;
@@ -425,9 +423,7 @@ static void draw_lines (const mesh_drawing *d, cairo_t *cr, const pg_screen *s)
     cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);
     draw_edges (d, cr, s, pixel);
     for (size_t i = 0; i < d->nrim; i++) path_of_rim (d, cr, s, d->rim_element[i], d->rim_side[i]);
-    cairo_set_source_rgb (cr, 0, 0, 0);
-    cairo_set_line_width (cr, 2.2 * pixel);
-    cairo_stroke (cr);
+    pg_stroke (cr, 2.2 * pixel, 0, 0, 0);
     if (d->style->sets) draw_sets (d, cr, s, pixel);
     cairo_restore (cr);
 }

@@ -7,11 +7,10 @@
 #include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 static const unsigned char signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
-/* Length of a chunk's head (length, name) and of its checksum. */
-enum { HEAD = 8, CHECKSUM = 4, LARGEST_CHUNK = 0x7fffffff };
+/* Length of a chunk's head (length, name), of a number behind it, and of its checksum. */
+enum { HEAD = 8, NUMBER = 4, CHECKSUM = 4, LARGEST_CHUNK = 0x7fffffff };
 
 struct pg_movie {
     FILE    *file;
@@ -28,13 +27,9 @@ static uint32_t read_32 (const unsigned char *b)
 {
     return (uint32_t) b[0] << 24 | (uint32_t) b[1] << 16 | (uint32_t) b[2] << 8 | b[3];
 }
-static void write_32 (unsigned char *b, uint32_t v)
+static void write_number (unsigned char *b, size_t bytes, uint32_t v)
 {
-    for (int k = 0; k < 4; k++) b[k] = (unsigned char) (v >> (24 - 8 * k));
-}
-static void write_16 (unsigned char *b, uint16_t v)
-{
-    b[0] = (unsigned char) (v >> 8), b[1] = (unsigned char) v;
+    for (size_t k = 0; k < bytes; k++) b[bytes - 1 - k] = (unsigned char) (v >> (8 * k));
 }
 
 /* Checksum of the PNG specification, annex D: the CRC of ISO 3309, bit by bit in a table of four bits. */
@@ -50,22 +45,26 @@ static uint32_t checksum (uint32_t crc, const unsigned char *data, size_t n)
     return crc;
 }
 
-/* Writes a chunk of two parts, the first of which may be empty. */
-static pg_status put_chunk (pg_movie *m, const char *name, size_t n1, const unsigned char *part1, size_t n2,
-                            const unsigned char *part2)
+static pg_status put (pg_movie *m, const unsigned char *data, size_t n)
+{
+    errno = 0;
+    if (n == 0 || fwrite (data, 1, n, m->file) == n) return PG_OK;
+    return pg_error (PG_E_FILE, PG_HERE, "%s: %s", m->path, strerror (errno ? errno : EIO));
+}
+
+/* Writes a chunk; numbered: its data begin with the next number. */
+static pg_status put_chunk (pg_movie *m, const char *name, int numbered, const unsigned char *data, size_t n)
 {
     pg_status status = PG_OK;
-    unsigned char head[HEAD], tail[CHECKSUM];
-    if (n1 + n2 > LARGEST_CHUNK) PG_FAIL (PG_E_LIMIT, "%s: the pictures are too large", m->path);
-    write_32 (head, (uint32_t) (n1 + n2)), memcpy (head + 4, name, 4);
-    uint32_t crc = checksum (0xffffffffu, head + 4, 4);
-    if (n1) crc = checksum (crc, part1, n1);
-    if (n2) crc = checksum (crc, part2, n2);
-    write_32 (tail, ~crc);
-    errno = 0;
-    if (fwrite (head, 1, HEAD, m->file) != HEAD || (n1 && fwrite (part1, 1, n1, m->file) != n1)
-        || (n2 && fwrite (part2, 1, n2, m->file) != n2) || fwrite (tail, 1, CHECKSUM, m->file) != CHECKSUM)
-        PG_FAIL (PG_E_FILE, "%s: %s", m->path, strerror (errno ? errno : EIO));
+    unsigned char head[HEAD + NUMBER], tail[CHECKSUM];
+    size_t size = numbered ? sizeof head : HEAD;
+    if (n > LARGEST_CHUNK - NUMBER) PG_FAIL (PG_E_LIMIT, "%s: the pictures are too large", m->path);
+    write_number (head, 4, (uint32_t) (n + size - HEAD)), memcpy (head + 4, name, 4);
+    if (numbered) write_number (head + HEAD, NUMBER, m->number++);
+    write_number (tail, CHECKSUM, ~checksum (checksum (0xffffffffu, head + 4, size - 4), data, n));
+    PG_TRY (put (m, head, size));
+    PG_TRY (put (m, data, n));
+    PG_TRY (put (m, tail, CHECKSUM));
 done:
     return status;
 }
@@ -73,10 +72,10 @@ done:
 /* How long the next picture stays, and that it covers the whole sheet. */
 static pg_status put_control (pg_movie *m)
 {
-    unsigned char data[26] = { 0 };
-    write_32 (data, m->number++), write_32 (data + 4, m->width), write_32 (data + 8, m->height);
-    write_16 (data + 20, m->delay[0]), write_16 (data + 22, m->delay[1]);
-    return put_chunk (m, "fcTL", 0, NULL, sizeof data, data);
+    unsigned char data[22] = { 0 };
+    write_number (data, 4, m->width), write_number (data + 4, 4, m->height);
+    write_number (data + 16, 2, m->delay[0]), write_number (data + 18, 2, m->delay[1]);
+    return put_chunk (m, "fcTL", 1, data, sizeof data);
 }
 
 /* The head of the movie: that of its first picture, and the number of all, repeated for ever. */
@@ -85,58 +84,42 @@ static pg_status put_head (pg_movie *m, const unsigned char *data, size_t n)
     pg_status status = PG_OK;
     unsigned char all[8] = { 0 };
     m->width = read_32 (data), m->height = read_32 (data + 4);
-    errno = 0;
-    if (fwrite (signature, 1, sizeof signature, m->file) != sizeof signature)
-        PG_FAIL (PG_E_FILE, "%s: %s", m->path, strerror (errno ? errno : EIO));
-    PG_TRY (put_chunk (m, "IHDR", 0, NULL, n, data));
-    write_32 (all, (uint32_t) m->frames);
-    PG_TRY (put_chunk (m, "acTL", 0, NULL, sizeof all, all));
+    write_number (all, 4, (uint32_t) m->frames);
+    PG_TRY (put (m, signature, sizeof signature));
+    PG_TRY (put_chunk (m, "IHDR", 0, data, n));
+    PG_TRY (put_chunk (m, "acTL", 0, all, sizeof all));
 done:
     return status;
 }
 
-/* One chunk of a picture: its head begins the movie or must agree with it, its data follow; what else the
- * first picture says (resolution) is kept. *begun: data have come. */
+/* One chunk of a picture: its head begins the movie or must agree with it, its data follow; all else is left
+ * out. *begun: data have come. */
 static pg_status take_chunk (pg_movie *m, const char *picture, const unsigned char *chunk, size_t n,
                              int *begun)
 {
     pg_status status = PG_OK;
     const unsigned char *data = chunk + HEAD;
-    char name[5] = { 0 };
-    memcpy (name, chunk + 4, 4);
-    if (strcmp (name, "IHDR") == 0 && n >= 13) {
+    if (memcmp (chunk + 4, "IHDR", 4) == 0 && n >= 13) {
         if (m->count == 0) PG_TRY (put_head (m, data, n));
         else if (read_32 (data) != m->width || read_32 (data + 4) != m->height)
             PG_FAIL (PG_E_USAGE, "%s: %u x %u pixels, but the movie has %u x %u", picture, read_32 (data),
                      read_32 (data + 4), m->width, m->height);
-    } else if (strcmp (name, "IDAT") == 0) {
-        unsigned char number[4];
+    } else if (memcmp (chunk + 4, "IDAT", 4) == 0) {
         if (!*begun) PG_TRY (put_control (m));
         *begun = 1;
-        if (m->count == 0) PG_TRY (put_chunk (m, "IDAT", 0, NULL, n, data));
-        else {
-            write_32 (number, m->number++);
-            PG_TRY (put_chunk (m, "fdAT", sizeof number, number, n, data));
-        }
-    } else if (strcmp (name, "IEND") != 0 && m->count == 0 && !*begun)
-        PG_TRY (put_chunk (m, name, 0, NULL, n, data));
+        PG_TRY (put_chunk (m, m->count ? "fdAT" : "IDAT", m->count > 0, data, n));
+    }
 done:
     return status;
 }
 
 /* ---- the movie -------------------------------------------------------------------------------------- */
-static int ends_with (const char *path, const char *ending)
-{
-    size_t n = strlen (path), m = strlen (ending);
-    return n >= m && strcasecmp (path + n - m, ending) == 0;
-}
-
 /* Whole rates are exact, others to a thousandth of a second or better. */
 pg_status pg_movie_create (pg_movie **out, const char *path, size_t frames, double rate)
 {
     pg_status status = PG_OK;
     pg_movie *m = NULL;
-    if (!ends_with (path, ".png") && !ends_with (path, ".apng"))
+    if (!pg_ends_with (path, ".png") && !pg_ends_with (path, ".apng"))
         PG_FAIL (PG_E_USAGE, "%s: a movie's file ends in .png or .apng", path);
     if (!(rate >= 0.02 && rate <= 1000))
         PG_FAIL (PG_E_USAGE, "%g pictures in a second: must lie in [0.02, 1000]", rate);
@@ -190,7 +173,7 @@ pg_status pg_movie_close (pg_movie **movie, pg_status so_far)
         pg_error (PG_E_USAGE, PG_HERE, "%s: %zu pictures instead of %zu", m->path, m->count, m->frames);
         status = PG_E_USAGE;
     }
-    if (status == PG_OK) status = put_chunk (m, "IEND", 0, NULL, 0, NULL);
+    if (status == PG_OK) status = put_chunk (m, "IEND", 0, NULL, 0);
     errno = 0;
     if (fclose (m->file) != 0 && status == PG_OK) {
         pg_error (PG_E_FILE, PG_HERE, "%s: %s", m->path, strerror (errno ? errno : EIO));

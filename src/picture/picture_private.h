@@ -27,6 +27,8 @@ typedef struct {
     /* svg: 1 for SVG; reason: errno of the first write that failed, 0 if none did. */
     int      svg, reason;
 } pg_canvas;
+/* 1 if the path ends so, in capitals or not. */
+int pg_ends_with (const char *path, const char *ending);
 /* Creates the file and a white canvas of that size in pixels. PG_E_USAGE: the name ends
  * neither in .png nor in .svg. */
 pg_status pg_canvas_open  (pg_canvas *c, const char *path, double width, double height);
@@ -39,6 +41,8 @@ pg_status pg_canvas_close (pg_canvas *c, pg_status status);
  * is the middle of the capital letters. turned = 1 writes upwards. */
 double pg_text (cairo_t *cr, const char *text, double size, double x, double y, double align, int turned,
                 int draw);
+/* Draws the path as a line of that width in pixels and colour. */
+void pg_stroke (cairo_t *cr, double width, double red, double green, double blue);
 /* Draws a title centred at x, moved and then made smaller where the picture (from 0 to width)
  * leaves no space. */
 void pg_title (cairo_t *cr, const char *title, double x, double y, double width);

@@ -158,10 +158,8 @@ void pg_sheet_to (const pg_sheet *p, size_t panel, double a, double b, double *p
 /* A black rectangle, moved to the middle of pixels so that its lines are sharp. */
 static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
 {
-    cairo_set_source_rgb (cr, 0, 0, 0);
-    cairo_set_line_width (cr, 2);
     cairo_rectangle (cr, floor (x) + 0.5, floor (y) + 0.5, floor (w), floor (h));
-    cairo_stroke (cr);
+    pg_stroke (cr, 2, 0, 0, 0);
 }
 
 /* The pointed end of a colour bar beyond which there are values, in the colour that they have. */
@@ -183,9 +181,7 @@ static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
     cairo_close_path (cr);
     cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
     cairo_fill_preserve (cr);
-    cairo_set_source_rgb (cr, 0, 0, 0);
-    cairo_set_line_width (cr, 2);
-    cairo_stroke (cr);
+    pg_stroke (cr, 2, 0, 0, 0);
 }
 
 /* The colour bar as a gradient of 65 stops, with an arrow at an end beyond which there are values. */
@@ -215,9 +211,7 @@ static void draw_legend (const pg_sheet *p, cairo_t *cr)
         cairo_rectangle (cr, x + 0.5, floor (y) + 0.5, BAR, 0.9 * PG_FONT);
         cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
         cairo_fill_preserve (cr);
-        cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
-        cairo_set_line_width (cr, 1.5);
-        cairo_stroke (cr);
+        pg_stroke (cr, 1.5, 0.25, 0.25, 0.25);
         cairo_set_source_rgb (cr, 0, 0, 0);
         pg_text (cr, p->legend[k], PG_FONT, x + BAR + 12, y + 0.45 * PG_FONT, 0, 0, 1);
     }

@@ -21,72 +21,16 @@ void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
                            : a * t->eye->right[k] + b * t->eye->up[k] + t->at * t->eye->toward[k];
 }
 
-/* ---- points in buckets --------------------------------------------------------------------------------- */
-/* Bucket of a place along one axis; places outside count to the outermost bucket. */
-static long bucket_of (const pg_tiles *t, int axis, double place)
-{
-    double k = floor ((place - t->low[axis]) / t->pitch);
-    return k < 0 ? 0 : k >= t->buckets[axis] ? t->buckets[axis] - 1 : (long) k;
-}
-
-/* Sorts the points into square buckets of 1.6 times the largest spacing by counting: the first
- * pass counts, the second one fills each bucket from its end. */
-static pg_status sort_points (pg_tiles *t)
-{
-    pg_status status = PG_OK;
-    t->pitch = fmax (1.6 * t->widest, 1e-300);
-    for (int a = 0; a < 2; a++) {
-        double high = t->low[a] = t->place[a];
-        for (size_t k = 0; k < t->n; k++)
-            t->low[a] = fmin (t->low[a], t->place[2 * k + (size_t) a]),
-            high = fmax (high, t->place[2 * k + (size_t) a]);
-        t->buckets[a] = (long) fmin ((high - t->low[a]) / t->pitch + 1, 4096);
-    }
-    size_t all = (size_t) (t->buckets[0] * t->buckets[1]);
-    PG_ALLOC (t->first, all + 1);
-    PG_ALLOC (t->sorted, t->n);
-    for (int pass = 0; pass < 2; pass++) {
-        for (size_t k = 0; k < t->n; k++) {
-            size_t b = (size_t) (bucket_of (t, 1, t->place[2 * k + 1]) * t->buckets[0]
-                                 + bucket_of (t, 0, t->place[2 * k]));
-            if (pass) t->sorted[--t->first[b + 1]] = (int) k;
-            else t->first[b + 1]++;
-        }
-        for (size_t b = 0; !pass && b < all; b++) t->first[b + 1] += t->first[b];
-        for (size_t b = 0; pass && b < all; b++) t->first[b] = t->first[b + 1];
-        if (pass) t->first[all] = t->n;
-    }
-done:
-    return status;
-}
-
-/* Looks into the buckets that the circle touches. */
-size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t most, int *out)
-{
-    size_t n = 0;
-    long from[2], to[2];
-    for (int a = 0; a < 2; a++)
-        from[a] = bucket_of (t, a, at[a] - reach), to[a] = bucket_of (t, a, at[a] + reach);
-    for (long j = from[1]; j <= to[1]; j++)
-        for (long i = from[0]; i <= to[0]; i++)
-            for (size_t s = t->first[j * t->buckets[0] + i]; s < t->first[j * t->buckets[0] + i + 1]; s++) {
-                const double *p = t->place + 2 * (size_t) t->sorted[s];
-                double dx = p[0] - at[0], dy = p[1] - at[1];
-                if (dx * dx + dy * dy <= reach * reach && n < most) out[n++] = t->sorted[s];
-            }
-    return n;
-}
-
 /* Spacings of the points: the given ones, else the step of the lattice. */
 static pg_status take_spacing (pg_tiles *t)
 {
     pg_status status = PG_OK;
+    double step = fmax (t->step[0], t->step[1]);
     PG_ALLOC (t->spacing, t->n);
     for (size_t k = 0; k < t->n; k++) {
-        t->spacing[k] = t->size ? t->size[k] : fmax (t->step[0], t->step[1]);
+        t->spacing[k] = t->size && t->size[k] > 0 && isfinite (t->size[k]) ? t->size[k] : step;
         t->widest = fmax (t->widest, t->spacing[k]);
     }
-    PG_TRY (sort_points (t));
 done:
     return status;
 }
@@ -152,9 +96,9 @@ done:
 
 void pg_tiles_close (pg_tiles *t)
 {
-    pg_free (t->spacing), pg_free (t->first), pg_free (t->sorted), pg_free (t->cracked),
-        pg_free (t->gradient);
-    t->spacing = t->gradient = NULL, t->first = NULL, t->sorted = NULL, t->cracked = NULL;
+    pg_free (t->spacing), pg_free (t->cracked), pg_free (t->gradient);
+    pg_family_clear (&t->near);
+    t->spacing = t->gradient = NULL, t->cracked = NULL;
 }
 
 /* ---- the outline --------------------------------------------------------------------------------------- */

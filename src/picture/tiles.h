@@ -16,7 +16,7 @@ typedef struct {                                       /* borrowed unless said o
      * those of displaced points. */
     int     dim, loose, moved;
     /* Places in the plane of the picture, m (n x 2). */
-    const double *place;
+    double *place;
     /* Displacement in that plane times the magnification, m (n x 2), or NULL: undeformed. */
     const double *shift;
     /* Damage of the points (n), or NULL if it is not known. */
@@ -30,13 +30,10 @@ typedef struct {                                       /* borrowed unless said o
     /* The body, or NULL: the points are all that is known of it. */
     const pg_outline *outline;
     const pg_cracks *cracks;
-    /* Spacing around each point (n) and the largest one, m; edge and lower corner of the
-     * search buckets, m. */
-    double *spacing, widest, pitch, low[2];
-    /* Search buckets along both axes; the points of bucket b are sorted[first[b]] to
-     * sorted[first[b + 1] - 1]. */
-    long    buckets[2];
-    size_t *first;  int *sorted;
+    /* Spacing around each point (n) and the largest one, m. */
+    double *spacing, widest;
+    /* Of a displaced body: the neighbours of each point, within 1.6 spacings. */
+    pg_family near;
     /* Of each point (n): 1 if a pre-crack is within about two spacings, 2 if the point lies on
      * one, else 0. */
     unsigned char *cracked;
@@ -44,7 +41,7 @@ typedef struct {                                       /* borrowed unless said o
      * relative change of distance above which two damaged neighbours count as separated. */
     double *gradient, limit;
 } pg_tiles;
-/* Sorts the points into buckets and finds those near pre-cracks. Fails on
+/* Finds the points near pre-cracks. Fails on
  * missing memory only. */
 pg_status pg_tiles_open  (pg_tiles *t);
 void      pg_tiles_close (pg_tiles *t);
@@ -59,13 +56,10 @@ pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
  * is drawn as two lines. *face: PG_FACE places (x 2, m) of each of *n faces, NAN outside the body and where a
  * short piece needs fewer; grown as needed, *cap numbers. */
 enum { PG_FACE = 129 };
-pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *cap);
+pg_status pg_tiles_faces (pg_tiles *t, double **face, size_t *n, size_t *cap);
 
 /* 1 if a place lies in the body; also 1 where there is no outline, or one that is a mesh. */
 int       pg_tiles_inside (const pg_tiles *t, const double *at);
-/* Points within `reach` (m) of a place, in no particular order; writes at most `most` of them
- * and returns how many were written. */
-size_t    pg_tiles_near  (const pg_tiles *t, const double *at, double reach, size_t most, int *out);
 /* 1 if a pre-crack passes between two places of the plane. */
 int       pg_tiles_cut   (const pg_tiles *t, const double *a, const double *b);
 /* The coordinates in space (3, m) of the place (a, b) of the plane. */

@@ -14,8 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Largest number of points around a place. */
-enum { NEAR = 96 };
 /* Relative displacement of two points over their distance: the strain that would explain it. */
 static double strain_of (const pg_tiles *t, size_t i, size_t j)
 {
@@ -46,11 +44,9 @@ static pg_status find_limit (pg_tiles *t)
     pg_status status = PG_OK;
     double *strain = NULL;
     size_t m = 0, room = 0;
-    int near[NEAR];
     for (size_t i = 0; i < t->n; i++) {
-        size_t k = pg_tiles_near (t, t->place + 2 * i, 1.2 * t->spacing[i], NEAR, near);
-        for (size_t s = 0; s < k; s++) {
-            size_t j = (size_t) near[s];
+        for (size_t s = t->near.start[i]; s < t->near.start[i + 1]; s++) {
+            size_t j = (size_t) t->near.node[s];
             if (j <= i || (t->damage && !sound (t, i, j)) || !(isfinite (strain_of (t, i, j)))) continue;
             if (t->cracked[i] && t->cracked[j] && pg_tiles_cut (t, t->place + 2 * i, t->place + 2 * j))
                 continue;
@@ -71,13 +67,11 @@ done:
 static pg_status find_gradients (pg_tiles *t)
 {
     pg_status status = PG_OK;
-    int near[NEAR];
     PG_ALLOC (t->gradient, 4 * t->n);
     for (size_t i = 0; i < t->n; i++) {
         double A[3] = { 0 }, B[4] = { 0 };
-        size_t k = pg_tiles_near (t, t->place + 2 * i, 1.6 * t->spacing[i], NEAR, near);
-        for (size_t s = 0; s < k; s++) {
-            size_t j = (size_t) near[s];
+        for (size_t s = t->near.start[i]; s < t->near.start[i + 1]; s++) {
+            size_t j = (size_t) t->near.node[s];
             if (j == i || torn (t, i, j)) continue;
             double x = t->place[2*j] - t->place[2*i], y = t->place[2*j + 1] - t->place[2*i + 1];
             A[0] += x * x, A[1] += x * y, A[2] += y * y;
@@ -105,44 +99,40 @@ static void move (const pg_tiles *t, size_t o, const double *x, double *to)
 }
 
 /* ---- faces of pre-cracks ------------------------------------------------------------------------------- */
-/* The nearest point within two spacings that no pre-crack separates from a place; -1 where there is none. */
-static long beside (const pg_tiles *t, const double *place)
+/* Does a pre-crack separate a point from a place? */
+static int separated (void *context, const double *place, size_t point)
 {
-    int near[NEAR];
-    long best = -1;
-    double least = INFINITY;
-    size_t k = pg_tiles_near (t, place, 2 * t->widest, NEAR, near);
-    for (size_t s = 0; s < k; s++) {
-        double d = hypot (t->place[2 * (size_t) near[s]] - place[0],
-                          t->place[2 * (size_t) near[s] + 1] - place[1]);
-        if (d < least && !pg_tiles_cut (t, t->place + 2 * (size_t) near[s], place)) least = d, best = near[s];
-    }
-    return best;
+    const pg_tiles *t = context;
+    return pg_tiles_cut (t, t->place + 2 * point, place);
 }
 
 /* Where n places along one face of a crack from a to b (m) are now: side 1: on the left of that direction, 0:
  * on the right; out: n x 2, m; NAN outside the body.
  * Places are taken a thousandth of a spacing beside the crack, on the side that is asked for,
  * so that they see the points of that side only. */
-static void face_of (const pg_tiles *t, const double *a, const double *b, int side, size_t n, double *out)
+static void face_of (pg_tiles *t, const pg_nearest *nearest, const double *a, const double *b, int side,
+                     size_t n, double *out)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot (dx, dy),
            off = (side ? 1e-3 : -1e-3) * t->widest;
     for (size_t k = 0; k < n; k++) {
         double s = (double) k / (double) (n - 1),
                at[2] = { a[0] + s * dx - off * dy / length, a[1] + s * dy + off * dx / length };
-        long o = pg_tiles_inside (t, at) ? beside (t, at) : -1;
+        long o = pg_tiles_inside (t, at) ? pg_nearest_find (nearest, at, separated, t) : -1;
         out[2*k] = out[2*k + 1] = NAN;
-        if (o >= 0) move (t, (size_t) o, at, out + 2*k);
+        if (o < 0 || hypot (at[0] - t->place[2*o], at[1] - t->place[2*o + 1]) > 2 * t->widest) continue;
+        move (t, (size_t) o, at, out + 2*k);
     }
 }
 
 /* Five places in a spacing of a short piece, none behind them. */
-pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *cap)
+pg_status pg_tiles_faces (pg_tiles *t, double **face, size_t *n, size_t *cap)
 {
     pg_status status = PG_OK;
     *n = 0;
-    if (!t->shift || t->dim != 2 || !t->cracks) goto done;
+    pg_nearest *nearest = NULL;
+    if (!t->shift || t->dim != 2 || !t->cracks || !t->cracks->n) goto done;
+    PG_TRY (pg_nearest_create (&nearest, 2, t->n, t->place));
     for (size_t c = 0; c < t->cracks->n; c++)
         for (int side = 0; side < 2; side++) {
             const double *v = t->cracks->crack[c].vertex;
@@ -150,10 +140,11 @@ pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *c
             size_t m = places > 0.75 * PG_FACE ? PG_FACE : (size_t) fmax (places, 0) + 4;
             PG_GROW (*face, *cap, 2 * PG_FACE * (*n + 1));
             double *out = *face + 2 * PG_FACE * (*n)++;
-            face_of (t, v, v + 2, side, m, out);
+            face_of (t, nearest, v, v + 2, side, m, out);
             for (size_t k = 2 * m; k < 2 * PG_FACE; k++) out[k] = NAN;
         }
 done:
+    pg_nearest_free (&nearest);
     return status;
 }
 
@@ -277,6 +268,9 @@ pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
         copy (&rest, screen);
         goto done;
     }
+    pg_cloud points = { .dim = 2, .n = t->n, .x = t->place, .h = t->widest,
+                        .size = t->loose ? t->spacing : NULL };
+    PG_TRY (pg_family_build (&t->near, &points, t->n, t->place, 1.6 * t->widest, PG_RADIAL, 0));
     PG_TRY (find_limit (t));
     PG_TRY (find_gradients (t));
     PG_TRY (move_all (t, &rest, screen));

@@ -125,22 +125,26 @@ static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const p
     }
 }
 
-/* Black lines on broader white ones, so that cracks are seen on dark and on bright colours. */
-void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_cracks *cracks,
-                     const pg_screen *screen)
+/* Lines from here on end at the frame of the panel; cairo_restore ends that. */
+static void clip_to_frame (const pg_sheet *p, cairo_t *cr, size_t panel)
 {
     double x, y;
     pg_sheet_to (p, panel, p->low[0], p->high[1], &x, &y);
     cairo_save (cr);
     cairo_rectangle (cr, x, y, p->width, p->height);
     cairo_clip (cr);
-    cairo_set_line_cap (cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);
+}
+
+/* Black lines on broader white ones, so that cracks are seen on dark and on bright colours. */
+void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_cracks *cracks,
+                     const pg_screen *screen)
+{
+    clip_to_frame (p, cr, panel);
+    cairo_set_line_cap (cr, CAIRO_LINE_CAP_ROUND);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < cracks->n; k++) path_of_crack (p, cr, panel, g, screen, &cracks->crack[k]);
-        cairo_set_source_rgb (cr, !pass, !pass, !pass);
-        cairo_set_line_width (cr, pass ? 2.5 : 5);
-        cairo_stroke (cr);
+        pg_stroke (cr, pass ? 2.5 : 5, !pass, !pass, !pass);
     }
     cairo_restore (cr);
 }
@@ -149,11 +153,7 @@ void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid
 void pg_wire_faces (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size_t m, const double *place)
 {
     double x, y;
-    pg_sheet_to (p, panel, p->low[0], p->high[1], &x, &y);
-    cairo_save (cr);
-    cairo_rectangle (cr, x, y, p->width, p->height);
-    cairo_clip (cr);
-    cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);
+    clip_to_frame (p, cr, panel);
     for (size_t i = 0; i < n * m; i++) {
         const double *a = place + 2 * i;
         if (!isfinite (a[0]) || !isfinite (a[1])) continue;
@@ -161,9 +161,7 @@ void pg_wire_faces (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size
         if (i % m > 0 && isfinite (a[-2])) cairo_line_to (cr, x, y);
         else cairo_move_to (cr, x, y);
     }
-    cairo_set_source_rgb (cr, 0, 0, 0);
-    cairo_set_line_width (cr, 2);
-    cairo_stroke (cr);
+    pg_stroke (cr, 2, 0, 0, 0);
     cairo_restore (cr);
 }
 
