@@ -209,23 +209,20 @@ typedef struct {  /* of one step: a user level, a time step or an event */
     long   unjudged;
 } pg_step;
 
-/* What was measured last at a tip, in the state of the last step. NAN: not measured. */
+/* What was measured last at the tip of a crack in the plane, or at a vertex of a front in space, in the state
+ * of the last step. NAN: not measured. */
 typedef struct {
-    long   id;                                         /* of the tip */
-    double x[2];                                       /* m */
+    long   id;                                         /* of the tip or front */
+    size_t vertex;                                     /* 0.. along the front */
+    double x[3];                                       /* m */
     double J, K[3], T;  /* J/m^2, Pa m^(1/2) of mode I, II, III, Pa; J and K at the load of the state */
     double uncertainty;                                /* of J, relative: by two domains */
     double utilisation;                                /* energy that growth releases over what it takes */
 } pg_tip_values;
-
-/* What was measured at a vertex of a crack front in the step. NAN: its front had no room. */
-typedef struct {
-    long   front;                                      /* id */
-    size_t vertex;                                     /* 0.. along the front */
-    double x[3];                                       /* m */
-    double J, K[3], T;                                 /* as of tips, at the load of the state */
-    double utilisation;                                /* energy that growth releases over what it takes */
-} pg_front_values;
+/* They from a measurement, for the factors l of its fields (pg_tip_combine); nothing is known of the
+ * utilisation, nor of anything where f is NULL or has no room. */
+pg_tip_values pg_tip_values_of (long id, size_t vertex, const double *x, const pg_tip_field *f, int nfield,
+                                const double *l);
 
 /* ---- solver -------------------------------------------------------------------------------------------- */
 typedef struct pg_solver pg_solver;
@@ -374,9 +371,9 @@ int pg_solver_tip_faces (const pg_solver *solver, const pg_state *state, size_t 
 int pg_solver_front_faces (const pg_solver *solver, const pg_state *state, size_t front, pg_front_faces *out);
 /* What the solver has measured at the tip of that id; NULL: nothing. */
 const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);
-/* What was measured at the vertices of crack fronts in the last step, front by front; *n: how many.
+/* At all tips; in space at the vertices of the fronts in the last step, front by front; *n: how many.
  * Borrowed. */
-const pg_front_values *pg_solver_fronts (const pg_solver *solver, size_t *n);
+const pg_tip_values *pg_solver_tips (const pg_solver *solver, size_t *n);
 /* Of every stage of loading (*n of them); NULL: none. Borrowed. */
 const pg_stage_record *pg_solver_stages (const pg_solver *solver, size_t *n);
 /* with a fresh census and overlap */

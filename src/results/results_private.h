@@ -115,8 +115,7 @@ typedef struct {
     pg_table *pieces, *rows;
     long      npiece;
     /* What the tips of the state of the last row bear, and the vertices of its fronts in space. */
-    pg_tip_values *value;  size_t cap_value;
-    pg_front_values *front_value;  size_t nfront_value, cap_front_value;
+    pg_tip_values *value;  size_t nvalue, cap_value;
     pg_quadrature facet_points;                        /* of all facets, once asked for */
     /* Time (s) or load factor of each row. */
     double   *time;
@@ -250,8 +249,9 @@ void      pg_result_average_column (const pg_result *r, size_t i, char *out, siz
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row,
                                double *work /* 6 a point */);
 /* Cracks that grow, and output.stress_intensity (grown_cracks.c): faults, reading; the columns of
- * history.csv and their values; the tables cracks.csv and tips.csv, created or cut to the rows of `from`, and
- * their rows, after that of history.csv; report.json; dissipated energy over that of the fracture energy. */
+ * history.csv and their values; the tables cracks.csv and tips.csv or fronts.csv, created or cut to the rows
+ * of `from`, and their rows, after that of history.csv; report.json; dissipated energy over that of the
+ * fracture energy. */
 void      pg_result_paths_check    (const pg_scene *scene, const pg_problem *problem);
 void      pg_result_paths_read     (pg_result *r, const pg_scene *scene);
 size_t    pg_result_paths_columns  (const pg_result *r);
@@ -269,16 +269,6 @@ pg_status pg_result_paths_faces    (const pg_result *r, const pg_state *state, s
 pg_status pg_result_contact_create (pg_result *r, const result_marks *from);
 pg_status pg_result_contact_write  (pg_result *r, const pg_step *step);
 void      pg_result_contact_close  (pg_result *r);
-/* grown_surfaces.c: what pg_result_paths_... do where the body has three dimensions. */
-size_t    pg_result_surfaces_columns (const pg_result *r);
-void      pg_result_surfaces_column  (const pg_result *r, size_t i, char *out, size_t size);
-pg_status pg_result_surfaces_row     (pg_result *r, const pg_state *state, double *row);
-pg_status pg_result_surfaces_create  (pg_result *r, const result_marks *from);
-pg_status pg_result_surfaces_write   (pg_result *r, const pg_state *state, const pg_step *step);
-void      pg_result_surfaces_json    (pg_json *j, const pg_result *r, const pg_state *state);
-/* Appends the triangle of a row of cracks.csv, if it has an area; how many columns such a row has. */
-pg_status pg_result_read_triangle    (pg_cracks *out, const double *row);
-int       pg_result_triangle_columns (void);
 /* output.tips (crack_tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
 pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);

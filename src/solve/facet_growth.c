@@ -19,6 +19,9 @@
  * the scatter of K between two places of a lattice are tied: wings of one crack grow together. */
 static const double LARGE_T = 0.2, CLOSED_TIE = 0.05;
 
+/* Fronts of surfaces instead of tips. */
+static int in_space (const break_loop *b) { return b->system.problem->dim == 3; }
+
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* Materials whose strength is more than the points can tell from their fracture energy. */
 static void doubt_strength (const break_loop *b)
@@ -251,8 +254,39 @@ done:
     return status;
 }
 
-/* Fronts of surfaces instead of tips. */
-static int in_space (const break_loop *b) { return b->system.problem->dim == 3; }
+/* All open tips. In motion with contact, accelerations are those without what contact makes of them. */
+static pg_status tips_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    pg_system *s = &b->system;
+    pg_state measured = *state;
+    double *a = NULL;
+    if (g->moving && s->contact) {
+        PG_ALLOC (a, s->ndof);
+        memcpy (a, state->a, s->ndof * sizeof *a);
+        contact_accelerate (s, a);
+        measured.a = a;
+    }
+    for (size_t i = 0; i < g->ntip; i++)
+        if (state->paths->tip[i].open) PG_TRY (measure_tip (b, &measured, i, d, t));
+done:
+    pg_free (a);
+    return status;
+}
+
+pg_status facet_lay_out (break_loop *b, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    if (in_space (b)) PG_TRY (fronts_lay_out (b, state));
+    size_t n = in_space (b) ? g->fronts->n : state->paths ? state->paths->ntip : 0;
+    PG_GROW (g->field, g->cap_field, n);
+    for (size_t i = 0; i < n; i++) g->field[i] = (pg_tip_field) { .near = NAN };
+    g->ntip = n;
+done:
+    return status;
+}
 
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
                          double t)
@@ -262,35 +296,17 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
     pg_system *s = &b->system;
     double t0 = pg_seconds (), times[2] = { base ? t - 1 : t, base ? t : 1 };
     const double *d[2] = { base ? base : unit, NULL };
-    pg_state measured = *state;
-    double *a = NULL;
-    g->ntip = state->paths ? state->paths->ntip : 0, g->ntrial = 0, g->nfield = base ? 2 : 1;
+    g->ntrial = 0, g->nfield = base ? 2 : 1;
     if (base && !g->ramp) PG_ALLOC (g->ramp, s->ndof);
     for (size_t i = 0; base && i < s->ndof; i++) g->ramp[i] = unit[i] - base[i];
     if (base) d[1] = g->ramp;
-    if (in_space (b)) {
-        PG_TRY (fronts_measure (b, state, d, times));
-        g->fresh = 1;
-        goto done;
-    }
-    if (g->moving && s->contact) {
-        PG_ALLOC (a, s->ndof);
-        memcpy (a, state->a, s->ndof * sizeof *a);
-        contact_accelerate (s, a);
-        measured.a = a;
-    }
-    PG_GROW (g->field, g->cap_field, g->ntip);
-    for (size_t i = 0; i < g->ntip; i++) {
-        memset (&g->field[i], 0, sizeof g->field[i]);
-        g->field[i].near = NAN;
-        if (!state->paths->tip[i].open) continue;
-        PG_TRY (measure_tip (b, &measured, i, d, times));
-    }
+    PG_TRY (facet_lay_out (b, state));
+    PG_TRY (in_space (b) ? fronts_measure (b, state, d, times) : tips_measure (b, state, d, times));
     if (!g->moving) PG_TRY (trial_facets (b, state, d, times));
-    tell (b, state);
+    if (in_space (b)) fronts_tell (b, state);
+    else tell (b, state);
     g->fresh = 1;
 done:
-    pg_free (a);
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;
 }
@@ -310,8 +326,9 @@ double facet_trial_utilisation (const facet_growth *g, const facet_candidate *c,
 double facet_utilisation (const break_loop *b, const pg_state *state, double factor)
 {
     const facet_growth *g = b->growth;
-    double top = in_space (b) ? fronts_utilisation (b, state, factor) : 0, angle;
-    for (size_t i = 0; i < g->ntip; i++) top = fmax (top, facet_judge (b, state, i, factor, &angle));
+    double top = in_space (b) ? fronts_plan (b, state, factor) : 0, angle;
+    for (size_t i = 0; i < g->ntip && !in_space (b); i++)
+        top = fmax (top, facet_judge (b, state, i, factor, &angle));
     for (size_t k = 0; k < g->ntrial; k++)
         top = fmax (top, facet_trial_utilisation (g, &g->trial[k], factor));
     return top;
@@ -322,16 +339,13 @@ pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
 {
     pg_status status = PG_OK;
     const facet_growth *g = s->break_loop.growth;
+    double l[2], angle;
+    int n = facet_factors (g, factor, l);
     if (in_space (&s->break_loop)) return fronts_show (s, state, factor);
     for (size_t i = 0; i < g->ntip; i++) {
         const pg_tip_field *f = &g->field[i];
-        pg_tip_values v = { .id = state->paths->tip[i].id, .x = { f->x[0], f->x[1] } };
-        double l[2], angle;
         if (isnan (f->near)) continue;
-        int n = facet_factors (g, factor, l);
-        pg_tip_combine (f, n, l, &v.J, NULL, &v.T);
-        pg_tip_intensities (f, n, l, v.K);
-        v.uncertainty = pg_tip_uncertainty (f, n, l);
+        pg_tip_values v = pg_tip_values_of (state->paths->tip[i].id, 0, f->x, f, n, l);
         v.utilisation = pow (facet_judge (&s->break_loop, state, i, factor, &angle), 2);
         double trust = facet_trust (g, i);
         v.J *= trust, v.utilisation *= trust;
@@ -463,7 +477,7 @@ pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew)
     facet_growth *g = b->growth;
     b->changes.n = 0, *grew = 0, g->closed = 0;
     if (in_space (b)) PG_TRY (fronts_run_out (b, state, grew));
-    for (size_t i = 0; i < g->ntip; i++) {
+    for (size_t i = 0; i < g->ntip && !in_space (b); i++) {
         facet_candidate c;
         const pg_tip *tip = &state->paths->tip[i];
         if (!tip->open || !(tip->grown > 0) || !isnan (g->field[i].near) || is_tried (g, i)) continue;

@@ -66,7 +66,8 @@ typedef struct facet_growth {
     int     fresh, nfield;
     double *ramp;                                      /* the second field (ndof) */
     double *before;                                    /* displacement before the event at hand (ndof) */
-    /* of every tip of the state; near NAN: closed, no room */
+    /* of every tip of the state, or of the vertices of its open fronts, front by front; near NAN: closed, no
+     * room */
     pg_tip_field *field; size_t ntip, cap_field;
     facet_candidate *trial; size_t ntrial, cap_trial;
     struct trials *trials;                             /* workspace of trial_facet.c */
@@ -112,6 +113,8 @@ pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_ke
  * else the fields base (loads of t - 1) and unit - base, and load factors are counted from there. */
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
                          double t);
+/* Room for the fields of all tips or vertices, of which nothing is known. */
+pg_status facet_lay_out (break_loop *b, const pg_state *state);
 /* Where faces may touch: a large stress along the crack falsifies the energy of a field that is not exact,
  * and the magnitude of what is open comes from K. */
 void      facet_settle_energy (pg_tip_field *f, int nfield);

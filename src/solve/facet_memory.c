@@ -74,18 +74,16 @@ static pg_status keep_fields (break_loop *b, const pg_state *state, const pg_kee
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    const int space = b->system.problem->dim == 3;
-    if (space && k->reading) PG_TRY (fronts_lay_out (b, state));
-    if (k->reading && !space) PG_GROW (g->field, g->cap_field, g->ntip);
-    size_t n = space ? g->fronts->n : g->ntip;
-    const pg_records fields = { .count_name = "facets.field", .number_name = "facets.field_numbers", .n = n,
-                                .counts = COUNTS, .numbers = NUMBERS, .give = give_field,
-                                .take = take_field, .context = space ? g->fronts->field : g->field };
-    if (n) PG_TRY (pg_keep_records (k, &fields));
-    if (!space || !g->fronts->nfront) goto done;
-    PG_TRY (k->bytes (k->context, "facets.blind", g->fronts->nfront, g->fronts->blind));
-    for (size_t i = 0; i < g->fronts->nfront; i++)
-        PG_KEEP_BOUND (k, "whether a front has room", g->fronts->blind[i], 0, 1);
+    if (k->reading) PG_TRY (facet_lay_out (b, state));
+    const front_growth *f = g->fronts;
+    const pg_records fields = { .count_name = "facets.field", .number_name = "facets.field_numbers",
+                                .n = g->ntip, .counts = COUNTS, .numbers = NUMBERS, .give = give_field,
+                                .take = take_field, .context = g->field };
+    if (g->ntip) PG_TRY (pg_keep_records (k, &fields));
+    if (!f || !f->nfront) goto done;
+    PG_TRY (k->bytes (k->context, "facets.blind", f->nfront, f->blind));
+    for (size_t i = 0; i < f->nfront; i++)
+        PG_KEEP_BOUND (k, "whether a front has room", f->blind[i], 0, 1);
 done:
     return status;
 }
@@ -107,14 +105,13 @@ pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_ke
     if (!count[0]) goto done;
     if (k->reading) {
         g->nfield = (int) count[1], g->ntrial = (size_t) count[2];
-        g->ntip = state->paths ? state->paths->ntip : 0;
         PG_GROW (g->trial, g->cap_trial, g->ntrial);
     }
     PG_TRY (keep_fields (b, state, k));
-    const pg_records trials = { .count_name = "facets.trial", .number_name = "facets.trial_numbers",
-                                .n = g->ntrial, .counts = 4, .numbers = 17, .give = give_trial,
-                                .take = take_trial, .context = g };
-    if (g->ntrial) PG_TRY (pg_keep_records (k, &trials));
+    const pg_records offered = { .count_name = "facets.trial", .number_name = "facets.trial_numbers",
+                                 .n = g->ntrial, .counts = 4, .numbers = 17, .give = give_trial,
+                                 .take = take_trial, .context = g };
+    if (g->ntrial) PG_TRY (pg_keep_records (k, &offered));
     if (k->reading) g->fresh = 1;
 done:
     return status;

@@ -109,14 +109,13 @@ static void settle_rises (const pg_front *front, front_vertex *v, double l)
 /* Values that were extrapolated to the end of a front carry the noise of the vertices beside it more than
  * once, and an end that runs ahead alone has nothing to hold it: for growth an end goes as its neighbour that
  * was measured, so that the front stays at right angles to the surface where it was. */
-static void hold_ends (const front_growth *f, size_t first, size_t n)
+static void hold_ends (const pg_tip_field *field, front_vertex *v, size_t n)
 {
-    front_vertex *v = f->vertex + first;
     for (size_t i = 0; i < n; i++) {
-        if (!f->field[first + i].extrapolated) continue;
+        if (!field[i].extrapolated) continue;
         for (size_t far = 1; far < n; far++) {
-            size_t at = i >= far && !f->field[first + i - far].extrapolated ? i - far : i + far;
-            if (at >= n || f->field[first + at].extrapolated) continue;
+            size_t at = i >= far && !field[i - far].extrapolated ? i - far : i + far;
+            if (at >= n || field[at].extrapolated) continue;
             double width = v[i].width;
             v[i] = v[at], v[i].width = width;
             break;
@@ -136,17 +135,18 @@ double fronts_plan (const break_loop *b, const pg_state *state, double factor)
     double top = 0, gained = 0, taken = 0, lead;
     size_t nfront;
     const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
-    for (size_t i = 0; i < f->n; i++) front_judge (b, &f->field[i], factor, &f->vertex[i]);
-    for (size_t k = 0; k < f->nfront; k++) hold_ends (f, f->first[k], f->first[k + 1] - f->first[k]);
+    for (size_t i = 0; i < f->n; i++) front_judge (b, &g->field[i], factor, &f->vertex[i]);
+    for (size_t k = 0; k < f->nfront; k++)
+        hold_ends (g->field + f->first[k], f->vertex + f->first[k], f->first[k + 1] - f->first[k]);
     for (size_t i = 0; i < f->n; i++) top = fmax (top, f->vertex[i].share);
     if (!(top > 0)) return 0;
-    for (size_t i = 0; i < f->n; i++) f->row[i] = facet_length (g, &f->field[i]);
+    for (size_t i = 0; i < f->n; i++) f->row[i] = facet_length (g, &g->field[i]);
     fronts_set_ways (g->fronts, f->row);
     for (size_t k = 0; k < f->nfront; k++) {
         size_t first = f->first[k], n = f->first[k + 1] - first;
         front_vertex *v = f->vertex + first;
         if (!n) continue;
-        settle_rises (&front[k], v, facet_length (g, &f->field[first]));
+        settle_rises (&front[k], v, facet_length (g, &g->field[first]));
         for (size_t i = 0; i < n; i++)
             lead = pow (v[i].way, LEADERS) * v[i].width,
                 gained += v[i].J * v[i].ratio * lead, taken += v[i].need * lead;

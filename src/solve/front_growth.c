@@ -8,7 +8,6 @@
  * those of facet_events.c. */
 #include "contact.h"
 #include "front_growth.h"
-#include "trial_facet.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +15,7 @@ void fronts_free (front_growth **fronts)
 {
     front_growth *f = *fronts;
     if (!f) return;
-    pg_free (f->field), pg_free (f->first), pg_free (f->blind), pg_free (f->vertex);
+    pg_free (f->first), pg_free (f->blind), pg_free (f->vertex);
     pg_free (f->d), pg_free (f->theta), pg_free (f->row), pg_free (f->couple), pg_free (f->factor);
     pg_free (f->forward), pg_free (f->line), pg_free (f->going), pg_free (f->goes);
     pg_free (f);
@@ -24,22 +23,26 @@ void fronts_free (front_growth **fronts)
 }
 
 /* ---- measuring ----------------------------------------------------------------------------------------- */
-/* Room for all vertices; first[k] of every front, one more for the end. */
-static pg_status lay_out (front_growth *f, const pg_front *front, size_t nfront)
+pg_status fronts_lay_out (break_loop *b, const pg_state *state)
 {
     pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
+    if (!g->fronts) PG_ALLOC (g->fronts, 1);
+    front_growth *f = g->fronts;
     f->n = 0, f->nfront = 0;
     PG_GROW (f->first, f->cap_first, nfront + 1);
     PG_GROW (f->blind, f->cap_blind, nfront + 1);
     for (size_t k = 0; k < nfront; k++) f->first[k] = f->n, f->n += front[k].open ? front[k].n : 0;
     f->first[nfront] = f->n;
-    PG_GROW (f->field, f->cap_field, f->n);
     PG_GROW (f->vertex, f->cap_vertex, f->n);
     PG_GROW (f->d, f->cap_d, f->n);
     PG_GROW (f->theta, f->cap_theta, f->n);
     PG_GROW (f->row, f->cap_row, f->n);
-    memset (f->field, 0, f->n * sizeof *f->field), memset (f->vertex, 0, f->n * sizeof *f->vertex);
+    memset (f->vertex, 0, f->n * sizeof *f->vertex);
     f->nfront = nfront;
+    PG_TRY (fronts_couple (f, front));
 done:
     return status;
 }
@@ -139,9 +142,10 @@ static int fill_gaps (pg_tip_field *field, const pg_front *front, int nfield, co
 }
 
 /* A vertex of front k that lies where materials of unlike stiffness meet; NULL: there is none. */
-static const pg_tip_field *at_interface (const front_growth *f, size_t k)
+static const pg_tip_field *at_interface (const facet_growth *g, size_t k)
 {
-    for (size_t i = f->first[k]; i < f->first[k + 1]; i++) if (f->field[i].interface) return &f->field[i];
+    for (size_t i = g->fronts->first[k]; i < g->fronts->first[k + 1]; i++)
+        if (g->field[i].interface) return &g->field[i];
     return NULL;
 }
 
@@ -154,7 +158,7 @@ static double mean_release (const facet_growth *g, size_t k, double *apart)
     int n = facet_factors (g, 1, l);
     *apart = 0;
     for (size_t i = f->first[k]; i < f->first[k + 1]; i++) {
-        const pg_tip_field *at = &f->field[i];
+        const pg_tip_field *at = &g->field[i];
         double one, off = pg_tip_uncertainty (at, n, l);
         if (isnan (off)) continue;
         pg_tip_combine (at, n, l, &one, NULL, NULL);
@@ -175,7 +179,7 @@ static void doubt_release (const break_loop *b, const pg_front *front, size_t nf
     for (size_t k = 0; k < nfront; k++) if (front[k].open) top = fmax (top, mean_release (g, k, &apart));
     for (size_t k = 0; k < nfront && !(g->said & FACET_SAID_UNKNOWN); k++) {
         double J = front[k].open ? mean_release (g, k, &apart) : 0;
-        const pg_tip_field *at = &f->field[f->first[k]];
+        const pg_tip_field *at = &g->field[f->first[k]];
         if (!(J > decisive * top) || !(apart > doubtful * J)) continue;
         pg_statistics_warn (b->system.report,
                             "the energy release rate of crack front %ld at (%.6g, %.6g, %.6g) m is known to "
@@ -187,29 +191,29 @@ static void doubt_release (const break_loop *b, const pg_front *front, size_t nf
     }
 }
 
-/* What the user should know, each said once. */
-static void tell (const break_loop *b, const pg_front *front, size_t nfront, long events)
+void fronts_tell (const break_loop *b, const pg_state *state)
 {
     facet_growth *g = b->growth;
     const front_growth *f = g->fronts;
-    size_t open = 0;
+    size_t open = 0, nfront;
+    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
     doubt_release (b, front, nfront);
     for (size_t k = 0; k < nfront; k++) {
         open += front[k].open != 0;
         if (!front[k].open) continue;
         const double *x = front[k].x;
-        if (f->blind[k] && !at_interface (f, k) && events == 0 && !(g->said & FACET_SAID_ROOM)) {
+        if (f->blind[k] && !at_interface (g, k) && state->events == 0 && !(g->said & FACET_SAID_ROOM)) {
             char what[80];
-            pg_tip_limit_words (b->system.problem, &f->field[f->first[k]], what, sizeof what);
+            pg_tip_limit_words (b->system.problem, &g->field[f->first[k]], what, sizeof what);
             pg_statistics_warn (b->system.report,
                                 "no room for integrals around any vertex of crack front %ld at (%.6g, %.6g, "
                                 "%.6g) m (%s is within 1.5 spacings): it does not grow; take a smaller "
                                 "spacing",
                                 front[k].id, x[0], x[1], x[2],
-                                f->field[f->first[k]].limit == PG_ROOM_LOAD ? what : "a surface or a crack");
+                                g->field[f->first[k]].limit == PG_ROOM_LOAD ? what : "a surface or a crack");
             g->said |= FACET_SAID_ROOM;
         }
-        const pg_tip_field *held = at_interface (f, k);
+        const pg_tip_field *held = at_interface (g, k);
         if (held && !(g->said & FACET_SAID_INTERFACE)) {
             pg_statistics_warn (b->system.report,
                                 "crack front %ld comes within 1.5 spacings of where materials of unlike "
@@ -220,7 +224,7 @@ static void tell (const break_loop *b, const pg_front *front, size_t nfront, lon
         }
         for (size_t i = f->first[k]; i < f->first[k + 1] && !f->blind[k]; i++) {
             double l[2], K[3];
-            const pg_tip_field *at = &f->field[i];
+            const pg_tip_field *at = &g->field[i];
             pg_tip_combine (at, facet_factors (g, 1, l), l, NULL, K, NULL);
             if (b->system.contact) break;
             if (!(K[0] < 0 && fabs (K[0]) > 1e-2 * hypot (K[1],
@@ -239,19 +243,6 @@ static void tell (const break_loop *b, const pg_front *front, size_t nfront, lon
     g->said |= FACET_SAID_NOTHING;
 }
 
-pg_status fronts_lay_out (break_loop *b, const pg_state *state)
-{
-    pg_status status = PG_OK;
-    facet_growth *g = b->growth;
-    size_t nfront;
-    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
-    if (!g->fronts) PG_ALLOC (g->fronts, 1);
-    PG_TRY (lay_out (g->fronts, front, nfront));
-    PG_TRY (fronts_couple (g->fronts, front));
-done:
-    return status;
-}
-
 pg_status fronts_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
     pg_status status = PG_OK;
@@ -261,7 +252,6 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
     pg_front_faces *faces = NULL;
     size_t nfront, cap_faces = 0;
     const pg_front *front = pg_fronts_of_state (s->problem, state, &nfront);
-    PG_TRY (fronts_lay_out (b, state));
     front_growth *f = g->fronts;
     PG_ALLOC (known, f->n);
     for (size_t k = 0; k < nfront; k++) {
@@ -271,23 +261,16 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
             PG_GROW (faces, cap_faces, front[k].n);
             contact_at_front (s, &front[k], g->nfield, 1, faces);
         }
-        PG_TRY (pg_front_measure_faces (f->field + f->first[k], s->problem, s->force, s->self, state, k,
+        PG_TRY (pg_front_measure_faces (g->field + f->first[k], s->problem, s->force, s->self, state, k,
                                         g->nfield, d, t, s->contact ? faces : NULL));
-        for (size_t i = f->first[k]; s->contact && i < f->first[k + 1]; i++) 
-            facet_settle_energy (&f->field[i], g->nfield);
-        f->blind[k] = (unsigned char) fill_gaps (f->field + f->first[k], &front[k], g->nfield,
+        for (size_t i = f->first[k]; s->contact && i < f->first[k + 1]; i++)
+            facet_settle_energy (&g->field[i], g->nfield);
+        f->blind[k] = (unsigned char) fill_gaps (g->field + f->first[k], &front[k], g->nfield,
                                                  s->contact ? faces : NULL, known);
     }
-    if (!g->moving) PG_TRY (fronts_offer_starts (b, state, d, t));
-    tell (b, front, nfront, state->events);
 done:
     pg_free (known), pg_free (faces);
     return status;
-}
-
-double fronts_utilisation (const break_loop *b, const pg_state *state, double factor)
-{
-    return fronts_plan (b, state, factor);
 }
 
 long fronts_unjudged (const break_loop *b, const pg_state *state)
@@ -406,11 +389,11 @@ pg_status fronts_run_out (break_loop *b, pg_state *state, int *grew)
         const pg_front *front = pg_fronts_of_state (p, state, &nfront);
         pg_fracture_limits limits;
         double need = 0, far = 0;
-        if (!is_as_measured (f, front, k) || !f->blind[k] || at_interface (f, k)) continue;
+        if (!is_as_measured (f, front, k) || !f->blind[k] || at_interface (g, k)) continue;
         for (size_t i = 0; i < front[k].n; i++) {
             size_t at = f->first[k] + i;
-            int can = facet_limits (b, f->field[at].x, 0, &limits);
-            f->d[at] = can ? facet_length (g, &f->field[at]) : 0, f->theta[at] = 0;
+            int can = facet_limits (b, g->field[at].x, 0, &limits);
+            f->d[at] = can ? facet_length (g, &g->field[at]) : 0, f->theta[at] = 0;
             if (can) need += limits.energy, far++;
         }
         for (size_t i = 0; i < front[k].n; i++) if (front[k].grown[i] > 0) *grew = 1;
@@ -428,24 +411,19 @@ pg_status fronts_show (pg_solver *s, const pg_state *state, double factor)
     pg_status status = PG_OK;
     const facet_growth *g = s->break_loop.growth;
     const front_growth *f = g->fronts;
+    double l[2];
+    int n = facet_factors (g, factor, l);
     size_t nfront;
     const pg_front *front = pg_fronts_of_state (s->problem, state, &nfront);
-    PG_GROW (s->front, s->cap_front, f->n);
-    s->nfront = 0;
+    s->ntip = 0;
     for (size_t k = 0; k < f->nfront; k++)
         for (size_t i = f->first[k]; i < f->first[k + 1]; i++) {
-            double l[2];
-            pg_front_values *out = &s->front[s->nfront++];
+            const pg_tip_field *at = &g->field[i];
+            pg_tip_values out = pg_tip_values_of (front[k].id, i - f->first[k], at->x, at, n, l);
             front_vertex v = { 0 };
-            int n = facet_factors (g, factor, l);
-            *out = (pg_front_values) { .front = front[k].id, .vertex = i - f->first[k], .J = NAN, .T = NAN,
-                                       .K = { NAN, NAN, NAN }, .utilisation = NAN };
-            memcpy (out->x, f->field[i].x, sizeof out->x);
-            if (isnan (f->field[i].near)) continue;
-            pg_tip_combine (&f->field[i], n, l, &out->J, NULL, &out->T);
-            pg_tip_intensities (&f->field[i], n, l, out->K);
-            front_judge (&s->break_loop, &f->field[i], factor, &v);
-            out->utilisation = v.share * v.share;
+            front_judge (&s->break_loop, at, factor, &v);
+            if (!isnan (at->near)) out.utilisation = v.share * v.share;
+            PG_TRY (solver_note_tip (s, &out));
         }
 done:
     return status;

@@ -5,6 +5,7 @@
 #ifndef PG_FRONT_GROWTH_H
 #define PG_FRONT_GROWTH_H
 #include "facet_growth.h"
+#include "hot_spot.h"
 
 /* A vertex at the load factor at hand. */
 typedef struct {
@@ -20,10 +21,9 @@ typedef struct {
 } front_vertex;
 
 typedef struct front_growth {
-    /* The last measurement: vertices of all fronts, front by front; front k has those from first[k] on. A
-     * front that is closed has none. */
-    pg_tip_field *field; size_t n, cap_field;
-    size_t *first, nfront, cap_first;
+    /* Vertices of all fronts, front by front; front k has those from first[k] on. A front that is closed has
+     * none. */
+    size_t n, *first, nfront, cap_first;
     unsigned char *blind;                              /* per front: no vertex has room for a tube */
     size_t cap_blind;
     front_vertex *vertex; size_t cap_vertex;           /* as of the last plan (n) */
@@ -37,33 +37,32 @@ typedef struct front_growth {
 void      fronts_free    (front_growth **fronts);
 /* Measures the fronts of the state under the fields of growth (facet_measure). */
 pg_status fronts_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t);
-/* Room for the fields of all vertices, and what depends on the shape of the fronts alone. */
+/* What the user should know of them, each said once. */
+void      fronts_tell    (const break_loop *b, const pg_state *state);
+/* How many vertices there are, and what depends on the shape of the fronts alone. */
 pg_status fronts_lay_out (break_loop *b, const pg_state *state);
-/* The plan of the next advance at a load factor, and its utilisation: sqrt of the energy that the advance
- * sets free over what it takes. */
-double    fronts_utilisation (const break_loop *b, const pg_state *state, double factor);
 /* Advances by the plan at that factor, and lets new cracks begin, each where its utilisation is `least` or
  * more; g->closed, going and energies of the event; b->changes: bonds cut. */
 pg_status fronts_grow    (break_loop *b, pg_state *state, double factor, double least);
 /* Fronts that have grown and lost their room everywhere go straight on by a facet: *grew. */
 pg_status fronts_run_out (break_loop *b, pg_state *state, int *grew);
 /* ---- front_initiation.c -------------------------------------------------------------------------------- */
-/* Offers new cracks (facet_offer) where strength and energy allow them below the load of the next growth. */
-pg_status fronts_offer_starts (break_loop *b, const pg_state *state, const double *const *d, const double *t);
+/* Offers new cracks (facet_offer) where strength and energy allow them below g->best. */
+pg_status fronts_offer_starts (break_loop *b, const search *g);
 /* Begins a new crack that was offered, a disc: its surface comes into being, and the bonds through it die. */
 pg_status fronts_start   (break_loop *b, pg_state *state, const facet_candidate *c);
 
 /* Open fronts that show nothing anywhere; where none is open and none can begin: 1. */
 long      fronts_unjudged (const break_loop *b, const pg_state *state);
 
-/* ---- front_growth.c, results --------------------------------------------------------------------------- */
 /* Fills J, T stress, K and utilisation at the vertices of crack fronts, for results. */
 pg_status fronts_show    (pg_solver *s, const pg_state *state, double factor);
 
 /* ---- front_direction.c --------------------------------------------------------------------------------- */
 /* Share, kink and slope of one vertex at the load factor. */
 void front_judge (const break_loop *b, const pg_tip_field *f, double factor, front_vertex *out);
-/* Largest utilisation, advances and rises of all vertices; returns the utilisation of the advance. */
+/* The plan of the next advance at a load factor: how far all vertices go and rise; returns its utilisation,
+ * sqrt of the energy that the advance sets free over what it takes. */
 double fronts_plan (const break_loop *b, const pg_state *state, double factor);
 /* ---- front_ways.c -------------------------------------------------------------------------------------- */
 /* Widths of all vertices, and what their advances make of each other; once for a measurement. */

@@ -22,16 +22,13 @@ typedef struct {
     double centre[3], normal[3], across[2][3];         /* m; unit vectors, the last two in the plane */
     double h, modulus, strength, energy;               /* m; E', Pa; Pa; J/m^2 */
     double factor, radius;                             /* load factor at which it comes into being; m */
-    double release[3], slope[3];  /* polynomials of lambda: set free over R^3 = release + R slope, J/m^3 */
-    double shortest, longest;                          /* radii that the fit is of, m */
+    trial_sizes sizes;                                 /* what radii set free */
 } disc;
 
-typedef struct {
-    break_loop *b;
-    const pg_state *state;
-    const trial_fields *f;
-    double below;                                      /* load factors that matter are below it */
-} view;
+static const pg_problem *problem_of (const search *g) { return g->w->system->problem; }
+
+/* The second axis in its plane. */
+static void complete (disc *d) { pg_cross3 (d->normal, d->across[0], d->across[1]); }
 
 /* ---- stress -------------------------------------------------------------------------------------------- */
 /* Of fields a = 0, 1 to constant and slope in lambda. */
@@ -70,16 +67,16 @@ static double strength_factor (const trial_fields *fields, const double *first, 
 
 /* Mean of a field of stresses over node i and those within 1.1 spacings to which its bonds live; nodes that a
  * lattice has put outside the body only continue what is inside. */
-static void mean_stress (const view *v, size_t i, const double *stress, double out[6])
+static void mean_stress (const search *g, size_t i, const double *stress, double out[6])
 {
-    const pg_problem *p = v->b->system.problem;
+    const pg_problem *p = problem_of (g);
     const pg_rows *r = &p->rows[PG_NODES];
     double reach = 1.1 * pg_problem_spacing (p, PG_NODES, i), n = 1;
     memcpy (out, stress + 6*i, 6 * sizeof *out);
     for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
         if (j == i || pg_distance3 (p->cloud.x + 3*i, p->cloud.x + 3*j) > reach) continue;
-        if (!v->state->alive[p->first_bond[PG_NODES] + e]) continue;
+        if (!g->state->alive[p->first_bond[PG_NODES] + e]) continue;
         if (!pg_problem_has_body (p, p->cloud.x + 3*j)) continue;
         for (int k = 0; k < 6; k++) out[k] += stress[6*j + (size_t) k];
         n++;
@@ -88,47 +85,29 @@ static void mean_stress (const view *v, size_t i, const double *stress, double o
 }
 
 /* ---- hot spots ----------------------------------------------------------------------------------------- */
-/* Near a front that grows by its own law, or on a crack. */
-static int is_excluded (const view *v, const double *x, double h)
-{
-    const pg_problem *p = v->b->system.problem;
-    size_t n;
-    const pg_front *front = pg_fronts_of_state (p, v->state, &n);
-    for (size_t k = 0; k < n; k++)
-        for (size_t i = 0; front[k].open && i < front[k].n; i++)
-            if (pg_distance3 (x, front[k].x + 3*i) < HOT_APART * h) return 1;
-    return pg_cracks_touch (pg_state_cracks (p, v->state), x, 1.5 * h) != NULL;
-}
-
 /* What a crack takes at a node, the strength as far as the points can tell; 0: none begins there. */
-static int resists (const view *v, size_t i, pg_fracture_limits *out, double *modulus)
+static int resists (const search *g, size_t i, pg_fracture_limits *out, double *modulus)
 {
-    const pg_problem *p = v->b->system.problem;
+    const pg_problem *p = problem_of (g);
     const pg_material *m = pg_problem_law (p, PG_NODES, i);
-    if (!facet_limits (v->b, p->cloud.x + 3*i, 0, out) || !(out->strength > 0)) return 0;
     *modulus = m->E / (1 - m->nu * m->nu);
-    out->strength = fmin (out->strength, hot_strength_cap (m->E, out->energy, pg_problem_spacing (p,
-                                                                                                  PG_NODES,
-                                                                                                      i)));
-    return 1;
+    return hot_resists (g, p->cloud.x + 3*i, 0, pg_problem_spacing (p, PG_NODES, i), m->E, out)
+           && out->strength > 0;
 }
 
 /* The plane across the largest tension at the load factor. The two other principal stresses, which may be
  * alike, say nothing of where the corners of the disc lie in it. */
-static void set_frame (const view *v, const double *first, const double *second, disc *d)
+static void set_frame (const search *g, const double *first, const double *second, disc *d)
 {
     double S[9], lambda[3], V[9], s[6], part[2];
     for (int k = 0; k < 6; k++)
-        affine_parts (v->f, first[k], second[k], part), s[k] = part[0] + d->factor * part[1];
+        affine_parts (g->f, first[k], second[k], part), s[k] = part[0] + d->factor * part[1];
     const double full[9] = { s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2] };
     memcpy (S, full, sizeof S);
     pg_dense_eigen (3, S, lambda, V);
     for (int k = 0; k < 3; k++) d->normal[k] = V[3*k];
     pg_plane_axis (d->normal, d->across[0]);
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, q = (k + 2) % 3;
-        d->across[1][k] = d->normal[m] * d->across[0][q] - d->normal[q] * d->across[0][m];
-    }
+    complete (d);
 }
 
 /* The way from a place in direction e (unit) to where the body ends, halved down from `most`; INFINITY: there
@@ -136,11 +115,11 @@ static void set_frame (const view *v, const double *first, const double *second,
 static double way_out (const pg_problem *p, const double *from, const double *e, double most)
 {
     double low = 0, high = most, x[3];
-    for (int k = 0; k < 3; k++) x[k] = from[k] + high * e[k];
+    pg_shift3 (from, e, high, x);
     if (pg_problem_has_body (p, x)) return INFINITY;
     for (int step = 0; step < STEPS; step++) {
         double middle = 0.5 * (low + high);
-        for (int k = 0; k < 3; k++) x[k] = from[k] + middle * e[k];
+        pg_shift3 (from, e, middle, x);
         if (pg_problem_has_body (p, x)) low = middle;
         else high = middle;
     }
@@ -156,20 +135,16 @@ static void go_to_surface (const pg_problem *p, disc *d)
     double e[DIRECTIONS][3], way[DIRECTIONS], least = INFINITY, sum[3] = { 0 };
     double same = pg_cloud_same (&p->cloud), most = d->h + 4 * same;
     for (int q = 0; q < DIRECTIONS; q++) {
-        const double to[3] = { q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1 };
-        double size = hypot (hypot (to[0], to[1]), to[2]);
-        for (int k = 0; k < 3; k++) e[q][k] = size > 0 ? to[k] / size : 0;
-        way[q] = size > 0 ? way_out (p, d->centre, e[q], most) : INFINITY;
+        e[q][0] = q % 3 - 1, e[q][1] = q / 3 % 3 - 1, e[q][2] = q / 9 - 1;
+        way[q] = pg_unit3 (e[q]) ? way_out (p, d->centre, e[q], most) : INFINITY;
         least = fmin (least, way[q]);
     }
     if (!(least <= d->h + same)) return;
-    for (int q = 0; q < DIRECTIONS; q++)
-        for (int k = 0; k < 3 && way[q] <= least + same; k++) sum[k] += e[q][k];
-    double size = hypot (hypot (sum[0], sum[1]), sum[2]);
-    if (!(size > 1e-6)) return;
-    for (int k = 0; k < 3; k++) sum[k] /= size;
+    for (int q = 0; q < DIRECTIONS; q++) if (way[q] <= least + same) pg_shift3 (sum, e[q], 1, sum);
+    if (!(pg_size3 (sum) > 1e-6)) return;
+    pg_unit3 (sum);
     double along = way_out (p, d->centre, sum, 2 * most);
-    for (int k = 0; k < 3 && isfinite (along); k++) d->centre[k] += along * sum[k];
+    if (isfinite (along)) pg_shift3 (d->centre, sum, along, d->centre);
 }
 
 /* The node of the least load factor that is not near one of the n discs; as many as there are nodes: none. */
@@ -187,10 +162,10 @@ static size_t next_node (const pg_problem *p, const double *factor, size_t n, co
 
 /* Up to SPOTS nodes with the least load factors, HOT_APART spacings apart; their discs have centre and
  * frame. */
-static pg_status find_spots (const view *v, disc *out, size_t *n)
+static pg_status find_spots (const search *g, disc *out, size_t *n)
 {
     pg_status status = PG_OK;
-    const pg_system *s = &v->b->system;
+    const pg_system *s = g->w->system;
     const pg_problem *p = s->problem;
     double *stress[2] = { NULL, NULL }, *factor = NULL, first[6], second[6], modulus;
     int components;
@@ -198,28 +173,28 @@ static pg_status find_spots (const view *v, disc *out, size_t *n)
     pg_fracture_limits limits;
     *n = 0;
     PG_ALLOC (factor, p->cloud.n);
-    for (int a = 0; a < v->f->n; a++) {
+    for (int a = 0; a < g->f->n; a++) {
         PG_ALLOC (stress[a], 6 * p->cloud.n);
-        PG_TRY (s->force->field (s->self, v->state, v->f->d[a], "stress", &components, &unit, stress[a]));
+        PG_TRY (s->force->field (s->self, g->state, g->f->d[a], "stress", &components, &unit, stress[a]));
     }
     for (size_t i = 0; i < p->cloud.n; i++) {
         factor[i] = INFINITY;
-        if (!pg_problem_has_body (p, p->cloud.x + 3*i) || !resists (v, i, &limits, &modulus)) continue;
-        mean_stress (v, i, stress[0], first);
-        mean_stress (v, i, stress[v->f->n - 1], second);
-        factor[i] = strength_factor (v->f, first, second, limits.strength, v->below);
-        if (isfinite (factor[i]) && is_excluded (v, p->cloud.x + 3*i, pg_problem_spacing (p, PG_NODES, i)))
+        if (!pg_problem_has_body (p, p->cloud.x + 3*i) || !resists (g, i, &limits, &modulus)) continue;
+        mean_stress (g, i, stress[0], first);
+        mean_stress (g, i, stress[g->f->n - 1], second);
+        factor[i] = strength_factor (g->f, first, second, limits.strength, g->best);
+        if (isfinite (factor[i]) && hot_excluded (g, p->cloud.x + 3*i, pg_problem_spacing (p, PG_NODES, i)))
             factor[i] = INFINITY;
     }
     for (size_t best; *n < SPOTS && (best = next_node (p, factor, *n, out)) < p->cloud.n; ++*n) {
         disc *d = &out[*n];
         *d = (disc) { .factor = factor[best], .h = pg_problem_spacing (p, PG_NODES, best) };
-        resists (v, best, &limits, &d->modulus);
+        resists (g, best, &limits, &d->modulus);
         d->strength = limits.strength, d->energy = limits.energy;
         memcpy (d->centre, p->cloud.x + 3 * best, sizeof d->centre);
-        mean_stress (v, best, stress[0], first);
-        mean_stress (v, best, stress[v->f->n - 1], second);
-        set_frame (v, first, second, d);
+        mean_stress (g, best, stress[0], first);
+        mean_stress (g, best, stress[g->f->n - 1], second);
+        set_frame (g, first, second, d);
         go_to_surface (p, d);
     }
 done:
@@ -254,32 +229,32 @@ static double energy_of (const pg_problem *p, const disc *d, double R)
 
 /* Tension across the disc over the strength, constant and slope in lambda: its mean over rings, and where the
  * rim has least of it. *rim 0: none of the rim lies inside the body. */
-static pg_status tension_on (const view *v, const disc *d, double R, double mean[2], double least[2],
+static pg_status tension_on (const search *g, const disc *d, double R, double mean[2], double least[2],
                              int *rim)
 {
     enum { PLACES = (RINGS + 1) * RIM };
     pg_status status = PG_OK;
-    const pg_system *s = &v->b->system;
+    const pg_system *s = g->w->system;
     double x[3 * PLACES], u[3 * PLACES], stress[2][6 * PLACES], n = 0, worst = -INFINITY;
     for (int q = 0; q < PLACES; q++)
         place_on (d, q < RIM ? R : R * sqrt ((q / RIM - 0.5) / RINGS),
                   2 * acos (-1) * (q % RIM + 0.5) / RIM, x + 3*q);
-    for (int a = 0; a < v->f->n; a++)
-        PG_TRY (s->force->sample (s->self, v->state, v->f->d[a], PLACES, x, u, stress[a], NULL));
+    for (int a = 0; a < g->f->n; a++)
+        PG_TRY (s->force->sample (s->self, g->state, g->f->d[a], PLACES, x, u, stress[a], NULL));
     mean[0] = mean[1] = least[0] = least[1] = 0, *rim = 0;
     for (int q = 0; q < PLACES; q++) {
         const double *m = d->normal;
         double across[2] = { 0, 0 }, part[2];
         if (!pg_problem_has_body (s->problem, x + 3*q)) continue;
-        for (int a = 0; a < v->f->n; a++) {
+        for (int a = 0; a < g->f->n; a++) {
             const double *t = stress[a] + 6*q;
             across[a] = (m[0] * m[0] * t[0] + m[1] * m[1] * t[1] + m[2] * m[2] * t[2]
                          + 2 * (m[0] * m[1] * t[3] + m[1] * m[2] * t[4] + m[2] * m[0] * t[5])) / d->strength;
         }
-        affine_parts (v->f, across[0], across[v->f->n - 1], part);
+        affine_parts (g->f, across[0], across[g->f->n - 1], part);
         if (q >= RIM) mean[0] += part[0], mean[1] += part[1], n++;
         else {
-            double reached = part[0] >= 1 ? 0 : part[1] > 0 ? (1 - part[0]) / part[1] : INFINITY;
+            double reached = trial_stress_factor (part);
             if (reached > worst) worst = reached, least[0] = part[0], least[1] = part[1];
             *rim = 1;
         }
@@ -289,27 +264,37 @@ done:
     return status;
 }
 
-static double stress_factor (const double part[2])
+/* The load factor at which a radius comes into being that sets so much free; *rim 0: it lies outside the
+ * body. mean: of the tension on it. */
+static pg_status factor_of (const search *g, const disc *d, double R, const double release[3], double *factor,
+                            int *rim)
 {
-    return part[0] >= 1 ? 0 : part[1] > 0 ? (1 - part[0]) / part[1] : INFINITY;
+    pg_status status = PG_OK;
+    double mean[2], least[2], own[3];
+    const pg_problem *p = problem_of (g);
+    PG_TRY (tension_on (g, d, R, mean, least, rim));
+    if (!*rim) goto done;
+    if (!release) {                                    /* by the energy of the mean tension */
+        double share = share_inside (p, d, R), f = d->strength,
+               all = 8 * f * f * R * R * R / (3 * d->modulus) * share * (share < 0.75 ? 1.26 : 1);
+        own[0] = all * mean[0] * mean[0], own[1] = 2 * all * mean[0] * mean[1];
+        own[2] = all * mean[1] * mean[1];
+    }
+    *factor = fmax (trial_energy_factor (release ? release : own, energy_of (p, d, R)),
+                    trial_stress_factor (least));
+done:
+    return status;
 }
 
 /* The radius at which the larger of both load factors is least, by the energy of the mean tension. */
-static pg_status estimate (const view *v, disc *d)
+static pg_status estimate (const search *g, disc *d)
 {
     pg_status status = PG_OK;
-    const pg_problem *p = v->b->system.problem;
     d->factor = INFINITY, d->radius = 1.5 * d->h;
-    for (int step = 0; step < STEPS; step++) {
-        double R = (1.5 + 0.5 * step) * d->h, mean[2], least[2];
-        int rim;
-        PG_TRY (tension_on (v, d, R, mean, least, &rim));
+    for (int step = 0, rim; step < STEPS; step++) {
+        double R = (1.5 + 0.5 * step) * d->h, factor;
+        PG_TRY (factor_of (g, d, R, NULL, &factor, &rim));
         if (!rim) break;
-        double share = share_inside (p, d, R), f = d->strength,
-               all = 8 * f * f * R * R * R / (3 * d->modulus) * share * (share < 0.75 ? 1.26 : 1);
-        const double release[3] = { all * mean[0] * mean[0], 2 * all * mean[0] * mean[1],
-                                    all * mean[1] * mean[1] };
-        double factor = fmax (trial_energy_factor (release, energy_of (p, d, R)), stress_factor (least));
         if (factor < d->factor) d->factor = factor, d->radius = R;
     }
 done:
@@ -323,71 +308,38 @@ static void corners (const disc *d, double R, double *x)
     for (int q = 0; q < SIDES; q++) place_on (d, r, (q + 0.5) * step, x + 3*q);
 }
 
-/* The bonds that each radius cuts beyond the one before. */
-static pg_status cut_radii (const view *v, trials *w, const disc *d, const double *R, pg_changes *cut)
+/* The discs of several radii. */
+typedef struct { const pg_problem *p; const disc *d; double R[RADII]; } tried_discs;
+
+static pg_status start_disc (const void *context, pg_state *state, size_t k, pg_changes *cut)
 {
-    pg_status status = PG_OK;
-    const pg_problem *p = v->b->system.problem;
-    unsigned char *before = NULL;
+    const tried_discs *t = context;
     double x[3 * SIDES];
-    if (!w->state) PG_TRY (pg_state_create (&w->state, p, w->system->components));
-    PG_ALLOC (before, v->state->nbond);
-    for (int k = 0; k < RADII; k++) {
-        size_t kept = 0;
-        PG_TRY (pg_state_copy (w->state, v->state));
-        corners (d, R[k], x);
-        PG_TRY (pg_surface_start (w->state, p, SIDES, x, d->normal, &cut[k]));
-        for (size_t i = 0; i < cut[k].n; i++) {
-            size_t bond = cut[k].bond[i];
-            if (!before[bond]) before[bond] = 1, cut[k].bond[kept++] = bond;
-        }
-        cut[k].n = kept;
-    }
-done:
-    pg_free (before);
-    return status;
+    corners (t->d, t->R[k], x);
+    return pg_surface_start (state, t->p, SIDES, x, t->d->normal, cut);
 }
 
-/* A straight line through energies over R^3, by least squares; without radii, but the first, from which on a
- * loaded part comes loose. */
+/* Without radii, but the first, from which on a loaded part comes loose. */
 static void fit (disc *d, const double *R, double energy[][3])
 {
-    double mean = 0, spread = 0;
-    int n = RADII;
+    size_t n = RADII;
     while (n > 1 && trial_comes_loose (energy[n - 1])) n--;
-    for (int k = 0; k < n; k++) mean += R[k] / n;
-    for (int k = 0; k < n; k++) spread += (R[k] - mean) * (R[k] - mean);
-    for (int q = 0; q < 3; q++) {
-        double value = 0, slope = 0;
-        for (int k = 0; k < n; k++) {
-            double y = energy[k][q] / (R[k] * R[k] * R[k]);
-            value += y / n, slope += spread > 0 ? (R[k] - mean) * y / spread : 0;
-        }
-        d->release[q] = value - slope * mean, d->slope[q] = slope;
-    }
-    d->shortest = R[0], d->longest = R[RADII - 1];
-}
-
-static void release_of (const disc *d, double R, double out[3])
-{
-    for (int q = 0; q < 3; q++) out[q] = R * R * R * (d->release[q] + R * d->slope[q]);
+    trial_fit (&d->sizes, n, R, energy, 3);
+    d->sizes.longest = R[RADII - 1];
 }
 
 /* The radius from low to high where strength begins to ask for more than energy, else the end at which the
  * larger is less; d->factor. */
-static pg_status settle (const view *v, disc *d, double low, double high)
+static pg_status settle (const search *g, disc *d, double low, double high)
 {
     enum { LOOKS = 25 };
     pg_status status = PG_OK;
-    const pg_problem *p = v->b->system.problem;
     d->factor = INFINITY;
-    for (int k = 0; k < LOOKS; k++) {
-        double R = low + (high - low) * k / (LOOKS - 1), release[3], mean[2], least[2];
-        int rim;
-        PG_TRY (tension_on (v, d, R, mean, least, &rim));
+    for (int k = 0, rim; k < LOOKS; k++) {
+        double R = low + (high - low) * k / (LOOKS - 1), release[3], factor;
+        trial_release_of (&d->sizes, R, release);
+        PG_TRY (factor_of (g, d, R, release, &factor, &rim));
         if (!rim) break;
-        release_of (d, R, release);
-        double factor = fmax (trial_energy_factor (release, energy_of (p, d, R)), stress_factor (least));
         if (factor < d->factor) d->factor = factor, d->radius = R;
     }
 done:
@@ -395,22 +347,22 @@ done:
 }
 
 /* Cuts radii about the estimate, then about what these say if that lies outside them. */
-static pg_status try_disc (const view *v, trials *w, disc *d)
+static pg_status try_disc (const search *g, disc *d)
 {
     static const double share[RADII] = { 0.8, 1, 1.25 };
     pg_status status = PG_OK;
     pg_changes cut[RADII] = { { 0 } };
     trial_form form[RADII];
-    double R[RADII], energy[RADII][3];
+    double energy[RADII][3];
+    tried_discs t = { .p = problem_of (g), .d = d };
     for (int round = 0; round < ROUNDS; round++) {
-        for (int k = 0; k < RADII; k++) R[k] = share[k] * fmax (d->radius, 1.5 * d->h / share[0]),
-            cut[k].n = 0;
-        PG_TRY (cut_radii (v, w, d, R, cut));
-        PG_TRY (trial_release (w, v->state, v->f, RADII, cut, form));
-        for (int k = 0; k < RADII; k++) trial_polynomial (v->f, &form[k], energy[k]);
-        fit (d, R, energy);
-        PG_TRY (settle (v, d, 0.9 * d->shortest, 1.5 * d->longest));
-        if (d->radius <= d->longest * 1.1 || d->factor > 1.25 * v->below) break;
+        for (int k = 0; k < RADII; k++) t.R[k] = share[k] * fmax (d->radius, 1.5 * d->h / share[0]);
+        PG_TRY (trial_cuts (g->w, g->state, RADII, start_disc, &t, cut));
+        PG_TRY (trial_release (g->w, g->state, g->f, RADII, cut, form));
+        for (int k = 0; k < RADII; k++) trial_polynomial (g->f, &form[k], energy[k]);
+        fit (d, t.R, energy);
+        PG_TRY (settle (g, d, 0.9 * d->sizes.shortest, 1.5 * d->sizes.longest));
+        if (d->radius <= d->sizes.longest * 1.1 || d->factor > 1.25 * g->best) break;
     }
 done:
     for (int k = 0; k < RADII; k++) pg_free (cut[k].bond);
@@ -418,43 +370,38 @@ done:
 }
 
 /* ---- what growth asks for ------------------------------------------------------------------------------ */
-static pg_status offer (const view *v, const disc *d)
+static pg_status offer (break_loop *b, const search *g, const disc *d)
 {
     pg_status status = PG_OK;
-    const pg_problem *p = v->b->system.problem;
     double polynomial[3], mean[2], least[2];
     int rim;
-    facet_candidate c = { .tip = -1, .radius = d->radius, .energy = energy_of (p, d, d->radius) };
+    facet_candidate c = { .tip = -1, .radius = d->radius,
+                          .energy = energy_of (problem_of (g), d, d->radius) };
     memcpy (c.from, d->centre, sizeof c.from), memcpy (c.to, d->normal, sizeof c.to);
     memcpy (c.across, d->across[0], sizeof c.across);
-    release_of (d, d->radius, polynomial);
-    trial_fill_release (v->f->n, polynomial, c.release);
-    PG_TRY (tension_on (v, d, d->radius, mean, least, &rim));
-    c.stress[0] = v->f->n == 1 ? least[1] : least[0], c.stress[1] = v->f->n == 1 ? 0 : least[1];
-    PG_TRY (facet_offer (v->b->growth, &c));
+    trial_release_of (&d->sizes, d->radius, polynomial);
+    trial_fill_release (g->f->n, polynomial, c.release);
+    PG_TRY (tension_on (g, d, d->radius, mean, least, &rim));
+    trial_fill_stress (g->f->n, least, c.stress);
+    PG_TRY (facet_offer (b->growth, &c));
 done:
     return status;
 }
 
-pg_status fronts_offer_starts (break_loop *b, const pg_state *state, const double *const *d, const double *t)
+pg_status fronts_offer_starts (break_loop *b, const search *all)
 {
     pg_status status = PG_OK;
-    facet_growth *g = b->growth;
-    trial_fields f;
+    search g = *all;
     disc spot[SPOTS];
     size_t n;
-    if (!trial_has_strength (b->system.problem)) return PG_OK;
-    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
-    PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
-    double top = f.n == 1 ? fronts_utilisation (b, state, 1) : 0;
-    view v = { b, state, &f, top > 1 ? 1 / top : 1 };
-    PG_TRY (find_spots (&v, spot, &n));
+    g.best = fmin (g.best, 1);                         /* none beyond full load */
+    PG_TRY (find_spots (&g, spot, &n));
     for (size_t k = 0; k < n; k++) {
-        PG_TRY (estimate (&v, &spot[k]));
-        if (spot[k].factor > 1.25 * v.below) continue;
-        PG_TRY (try_disc (&v, g->trials, &spot[k]));
-        if (spot[k].factor <= v.below) PG_TRY (offer (&v, &spot[k]));
-        v.below = fmin (v.below, spot[k].factor * (1 + facet_tie));
+        PG_TRY (estimate (&g, &spot[k]));
+        if (spot[k].factor > 1.25 * g.best) continue;
+        PG_TRY (try_disc (&g, &spot[k]));
+        if (spot[k].factor <= g.best) PG_TRY (offer (b, &g, &spot[k]));
+        g.best = fmin (g.best, spot[k].factor * (1 + facet_tie));
     }
 done:
     return status;
@@ -465,15 +412,11 @@ pg_status fronts_start (break_loop *b, pg_state *state, const facet_candidate *c
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     disc d = { .radius = c->radius };
-    double x[3 * SIDES];
+    tried_discs t = { .p = b->system.problem, .d = &d, .R = { c->radius } };
     memcpy (d.centre, c->from, sizeof d.centre), memcpy (d.normal, c->to, sizeof d.normal);
     memcpy (d.across[0], c->across, sizeof c->across);
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, q = (k + 2) % 3;
-        d.across[1][k] = c->to[m] * c->across[q] - c->to[q] * c->across[m];
-    }
-    corners (&d, c->radius, x);
-    PG_TRY (pg_surface_start (state, b->system.problem, SIDES, x, d.normal, &b->changes));
+    complete (&d);
+    PG_TRY (start_disc (&t, state, 0, &b->changes));
     for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
     g->needed += c->energy, g->event_energy += c->energy, g->began = g->going = 1;
 done:

@@ -4,6 +4,7 @@
  * through such a place begins below it, so that most places need not be looked at any closer. */
 #include "facet_growth.h"
 #include "hot_spot.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -135,15 +136,19 @@ int hot_resists (const search *g, const double *x, double angle, double h, doubl
 }
 
 /* ---- hot spots ----------------------------------------------------------------------------------------- */
-/* Places that are none of their own: near an open tip, which grows by its own law, or on a crack. */
 int hot_excluded (const search *g, const double *x, double h)
 {
     const pg_problem *p = g->w->system->problem;
     const pg_crack_paths *paths = g->state->paths;
+    size_t n;
+    const pg_front *front = pg_fronts_of_state (p, g->state, &n);
     for (size_t i = 0; paths && i < paths->ntip; i++) {
         const pg_tip *t = &paths->tip[i];
         if (t->open && hypot (x[0] - t->x[0], x[1] - t->x[1]) < HOT_APART * h) return 1;
     }
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; front[k].open && i < front[k].n; i++)
+            if (pg_distance3 (x, front[k].x + 3*i) < HOT_APART * h) return 1;
     return pg_cracks_touch (pg_state_cracks (p, g->state), x, 1.5 * h) != NULL;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to initiation.c and hot_spot.c: where new cracks may begin. */
+ * Private to initiation.c, front_initiation.c and hot_spot.c: where new cracks may begin. */
 #ifndef PG_HOT_SPOT_H
 #define PG_HOT_SPOT_H
 #include "trial_facet.h"
@@ -45,7 +45,7 @@ pg_status hot_stress (const search *g, size_t n, size_t count, const double *x, 
  * grow there, or has no strength given. */
 int       hot_resists (const search *g, const double *x, double angle, double h, double modulus,
                        pg_fracture_limits *out);
-/* Too near a tip, where the domain integral decides, or beside a crack, whose faces are free. */
+/* Too near an open tip or front, which grows by its own law, or beside a crack, whose faces are free. */
 int       hot_excluded (const search *g, const double *x, double h);
 /* Least distance of hot spots from each other and from tips, spacings. */
 #define HOT_APART 4

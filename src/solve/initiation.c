@@ -52,10 +52,7 @@ typedef struct {
     /* what drives it there, Pa: constant + lambda slope; stress of the crack's frame (shear_initiation.h) */
     double drive[MOST_PLACES][2], face[MOST_PLACES][4];
     double factor, about;                              /* estimates: load factor, and length there, m */
-    /* what it sets free over length^power: polynomials of lambda, value and slope over the length; power 2:
-     * J/m^2 */
-    double release[3], slope[3], power;
-    double shortest, longest;                          /* lengths that the fit is of, m */
+    trial_sizes sizes;                                 /* what lengths set free */
 } trial_crack;
 
 /* ---- where it runs ------------------------------------------------------------------------------------- */
@@ -221,7 +218,7 @@ static void drive_at (const trial_crack *c, double at, double out[2])
     for (int k = 0; k < 2; k++) out[k] = c->drive[i][k] + share * (c->drive[j][k] - c->drive[i][k]);
 }
 
-static double stress_factor (const double v[2])
+double trial_stress_factor (const double v[2])
 {
     if (v[0] >= 1) return 0;
     return v[1] > 0 ? (1 - v[0]) / v[1] : INFINITY;
@@ -236,7 +233,7 @@ static double lambda_S (const trial_crack *c, double l, double where[2])
         double at = i < c->n ? c->at[i] : i == c->n ? -end[0] : end[1];
         if (at < -end[0] || at > end[1]) continue;
         stress_at (c, at, v);
-        double factor = stress_factor (v);
+        double factor = trial_stress_factor (v);
         if (factor > worst) worst = factor, where[0] = v[0], where[1] = v[1];
     }
     return worst;
@@ -298,16 +295,15 @@ static void estimate (const search *g, trial_crack *c)
 }
 
 /* ---- lengths that are cut ------------------------------------------------------------------------------ */
-/* The polynomial of what a length sets free, J. */
-static void release_of (const trial_crack *c, double l, double out[3])
+void trial_release_of (const trial_sizes *c, double size, double out[3])
 {
-    for (int q = 0; q < 3; q++) out[q] = pow (l, c->power) * (c->release[q] + l * c->slope[q]);
+    for (int q = 0; q < 3; q++) out[q] = pow (size, c->power) * (c->release[q] + size * c->slope[q]);
 }
 
 static double lambda_E (const trial_crack *c, double l)
 {
     double polynomial[3];
-    release_of (c, l, polynomial);
+    trial_release_of (&c->sizes, l, polynomial);
     return trial_energy_factor (polynomial, energy_of (c, l));
 }
 
@@ -330,7 +326,7 @@ static size_t choose_lengths (const trial_crack *c, double about, double *length
 /* Energies by a power of the length, least squares of the logarithms: for a stress that falls off over a
  * short way (a small hole), where a straight line through energies over length^2 would soon come down to
  * zero. */
-static void fit_power (trial_crack *c, size_t n, const double *length, double energy[][3])
+static void fit_power (trial_sizes *c, size_t n, const double *length, double energy[][3])
 {
     double x = 0, y = 0, xx = 0, xy = 0;
     for (size_t k = 0; k < n; k++) {
@@ -346,26 +342,32 @@ static void fit_power (trial_crack *c, size_t n, const double *length, double en
     }
 }
 
-/* A straight line through energies over length^2, by least squares; through one: constant. */
-static void fit (trial_crack *c, size_t n, const double *length, double energy[][3])
+void trial_fit (trial_sizes *c, size_t n, const double *size, double energy[][3], int power)
 {
     double mean = 0, spread = 0;
-    c->power = 2;
-    for (size_t k = 0; k < n; k++) mean += length[k] / (double) n;
-    for (size_t k = 0; k < n; k++) spread += (length[k] - mean) * (length[k] - mean);
+    *c = (trial_sizes) { .power = power, .shortest = size[0], .longest = size[n - 1] };
+    for (size_t k = 0; k < n; k++) mean += size[k] / (double) n;
+    for (size_t k = 0; k < n; k++) spread += (size[k] - mean) * (size[k] - mean);
     for (int q = 0; q < 3; q++) {
         double value = 0, slope = 0;
         for (size_t k = 0; k < n; k++) {
-            double y = energy[k][q] / (length[k] * length[k]);
-            value += y / (double) n, slope += spread > 0 ? (length[k] - mean) * y / spread : 0;
+            double unit = 1;
+            for (int m = 0; m < power; m++) unit *= size[k];
+            double y = energy[k][q] / unit;
+            value += y / (double) n, slope += spread > 0 ? (size[k] - mean) * y / spread : 0;
         }
         c->release[q] = value - slope * mean, c->slope[q] = slope;
     }
-    /* where l (value + slope l) falls with l the line would ask for more load for a longer crack */
+}
+
+/* A straight line through energies over length^2; where l (value + slope l) falls with l the line would ask
+ * for more load for a longer crack. */
+static void fit (trial_sizes *c, size_t n, const double *length, double energy[][3])
+{
+    trial_fit (c, n, length, energy, 2);
     double value = c->release[0] + c->release[1] + c->release[2],
            slope = c->slope[0] + c->slope[1] + c->slope[2];
     if (n > 1 && value + 2 * slope * length[n - 1] <= 0) fit_power (c, n, length, energy);
-    c->shortest = length[0], c->longest = length[n - 1];
 }
 
 /* The ends of a crack of length l, and which of them are tips. */
@@ -397,18 +399,32 @@ static pg_status free_fields (const search *g, const trial_crack *c, double l, t
     return shear_free_fields (g, &c->shear, c->angle, mean, out);
 }
 
+/* The cracks of several lengths; pg_crack_start. */
+typedef struct {
+    const pg_problem *p;
+    double from[3 * LENGTHS], to[3 * LENGTHS];
+    int open[LENGTHS];
+} tried_cracks;
+
+static pg_status start_crack (const void *context, pg_state *state, size_t k, pg_changes *cut)
+{
+    const tried_cracks *t = context;
+    return pg_crack_start (state, t->p, t->from + 3*k, t->to + 3*k, t->open[k], cut);
+}
+
 /* Cuts lengths about one and fits what they set free. */
 static pg_status try_lengths (const search *g, trial_crack *c, double about)
 {
     pg_status status = PG_OK;
     pg_changes cut[LENGTHS] = { { 0 } };
     trial_form form[LENGTHS];
-    double from[3 * LENGTHS], to[3 * LENGTHS], length[LENGTHS], energy[LENGTHS][3];
-    int open[LENGTHS];
+    double length[LENGTHS], energy[LENGTHS][3];
+    tried_cracks t = { .p = g->w->system->problem };
     size_t n = choose_lengths (c, about, length);
-    for (size_t k = 0; k < n; k++) open[k] = place_ends (c, length[k], from + 3*k, to + 3*k);
-    for (size_t k = 0; k < n && c->shear.sense; k++) open[k] |= PG_START_SLIDES;
-    PG_TRY (trial_cuts (g->w, g->state, n, from, to, open, cut));
+    int slides = c->shear.sense ? PG_START_SLIDES : 0;
+    for (size_t k = 0; k < n; k++)
+        t.open[k] = slides | place_ends (c, length[k], t.from + 3*k, t.to + 3*k);
+    PG_TRY (trial_cuts (g->w, g->state, n, start_crack, &t, cut));
     trial_fields fields = *g->f;
     if (c->shear.sense) PG_TRY (free_fields (g, c, about, &fields));
     PG_TRY (trial_release (g->w, g->state, &fields, n, cut, form));
@@ -417,7 +433,7 @@ static pg_status try_lengths (const search *g, trial_crack *c, double about)
     while (n > 1
            && (length[n - 1] >= c->reach[0] + c->reach[1] || isinf (energy[n - 1][0] + energy[n - 1][2])))
         n--;
-    fit (c, n, length, energy);
+    fit (&c->sizes, n, length, energy);
 done:
     for (size_t k = 0; k < LENGTHS; k++) pg_free (cut[k].bond);
     return status;
@@ -455,19 +471,20 @@ static double best_length (const trial_crack *c, double low, double high, double
 static pg_status try_crack (const search *g, trial_crack *c, trial_start *out)
 {
     pg_status status = PG_OK;
+    const trial_sizes *z = &c->sizes;
     double l = c->about, all = c->reach[0] + c->reach[1];
     for (int round = 0; round < ROUNDS; round++) {
         PG_TRY (try_lengths (g, c, l));
         int over;
         double about = l;
-        both (c, c->longest, &over);
-        l = best_length (c, 0.5 * c->shortest, over ? fmin (2 * c->longest, all) : c->longest, &out->factor);
-        int inside = (l >= c->shortest * (1 - 1e-9) || c->shortest <= c->least * (1 + 1e-9))
-                     && l <= c->longest * (1 + 1e-9);
+        both (c, z->longest, &over);
+        l = best_length (c, 0.5 * z->shortest, over ? fmin (2 * z->longest, all) : z->longest, &out->factor);
+        int inside = (l >= z->shortest * (1 - 1e-9) || z->shortest <= c->least * (1 + 1e-9))
+                     && l <= z->longest * (1 + 1e-9);
         if (inside || fabs (l - about) < 0.1 * about || out->factor > doubt * g->best) break;
     }
     lambda_S (c, l, out->stress);
-    release_of (c, l, out->release);
+    trial_release_of (&c->sizes, l, out->release);
     out->energy = energy_of (c, l);
     /* a facet of less than a spacing cuts next to nothing */
     out->length = fmin (fmax (l, c->least), all);

@@ -467,8 +467,7 @@ struct pg_solver {
     /* 1: alive bits of backup and state differ in the bonds of the last step's list alone */
     int       follows;
     double   *reaction;
-    pg_tip_values *tip; size_t ntip, cap_tip;          /* values measured at tips in the last step */
-    pg_front_values *front; size_t nfront, cap_front;  /* values at vertices of fronts in the last step */
+    pg_tip_values *tip; size_t ntip, cap_tip;  /* measured at tips, or at vertices in the last step */
     stage_path stage;
     const pg_platen_values *moving;                    /* of platens in explicit steps; NULL: none */
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
@@ -509,7 +508,7 @@ void      stage_save    (pg_solver *s);                /* before a step; where i
 void      stage_return  (pg_solver *s);
 
 /* ---- tip_values.c -------------------------------------------------------------------------------------- */
-/* Notes what was measured at a tip, in the place of what was known of it. */
+/* Notes what was measured at a tip or vertex, in the place of what was known of it. */
 pg_status solver_note_tip  (pg_solver *s, const pg_tip_values *values);
 pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k);
 

@@ -69,7 +69,7 @@ void pg_solver_free (pg_solver **solver)
     if (s->own && s->type->free) s->type->free (s);
     pg_free (s->own);
     break_loop_free (&s->break_loop);
-    pg_free (s->reaction), pg_free (s->tip), pg_free (s->front);
+    pg_free (s->reaction), pg_free (s->tip);
     pg_state_free (&s->backup);
     stages_free (s);
     pg_free (s);

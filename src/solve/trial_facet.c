@@ -2,7 +2,7 @@
  * Trial facets: the next facet of tips that have no room for a domain integral, and new cracks. What is
  * offered carries the energy that it sets free, found on a copy of the state. A facet of length l comes into
  * being at the load factor at which that reaches G0 l t, t the thickness (Griffith 1921). */
-#include "facet_growth.h"
+#include "front_growth.h"
 #include "hot_spot.h"
 #include "interface_facet.h"
 #include <math.h>
@@ -65,19 +65,19 @@ double trial_energy_factor (const double *c, double energy)
     return fmax (0, b > 0 ? -2 * least / (b + root) : (root - b) / (2 * a));
 }
 
-pg_status trial_cuts (trials *w, const pg_state *state, size_t n, const double *from, const double *to,
-                      const int *open, pg_changes *cut)
+pg_status trial_cuts (trials *w, const pg_state *state, size_t n,
+                      pg_status (*start) (const void *context, pg_state *state, size_t k, pg_changes *cut),
+                      const void *context, pg_changes *cut)
 {
     pg_status status = PG_OK;
-    const pg_problem *p = w->system->problem;
     unsigned char *before = NULL;
-    if (!w->state) PG_TRY (pg_state_create (&w->state, p, w->system->components));
+    if (!w->state) PG_TRY (pg_state_create (&w->state, w->system->problem, w->system->components));
     PG_ALLOC (before, state->nbond);
     for (size_t k = 0; k < n; k++) {
         size_t kept = 0;
         PG_TRY (pg_state_copy (w->state, state));
         cut[k].n = 0;
-        PG_TRY (pg_crack_start (w->state, p, from + 3*k, to + 3*k, open[k], &cut[k]));
+        PG_TRY (start (context, w->state, k, &cut[k]));
         for (size_t i = 0; i < cut[k].n; i++) {
             size_t bond = cut[k].bond[i];
             if (before[bond]) continue;
@@ -112,6 +112,11 @@ void trial_fill_release (int nfield, const double *c, double out[2][2])
     memset (out, 0, 4 * sizeof **out);
     if (nfield == 1) out[0][0] = c[2];
     else out[0][0] = c[0], out[1][1] = c[2], out[0][1] = out[1][0] = 0.5 * c[1];
+}
+
+void trial_fill_stress (int nfield, const double *c, double out[2])
+{
+    out[0] = nfield == 1 ? c[1] : c[0], out[1] = nfield == 1 ? 0 : c[1];
 }
 
 /* ---- tips without room --------------------------------------------------------------------------------- */
@@ -302,29 +307,26 @@ int trial_has_strength (const pg_problem *p)
     return 0;
 }
 
-static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, const trial_fields *f)
+static pg_status offer_starts (break_loop *b, const search *g)
 {
     pg_status status = PG_OK;
+    const trial_fields *f = g->f;
     trial_start start[TRIAL_MOST_STARTS];
     size_t n;
     int arbitrary;
-    if (!trial_has_strength (b->system.problem)) return PG_OK;
-    /* proportional loads: a tip that grows earlier leaves nothing to look for */
-    double top = f->n == 1 ? facet_utilisation (b, state, 1) : 0;
-    double below = top > 0 ? 1 / top : INFINITY;
-    PG_TRY (trial_initiation (w, state, f, limits_at, b, below, start, &n, &arbitrary));
-    if (arbitrary && !w->said) {
+    PG_TRY (trial_initiation (g->w, g->state, f, g->limits, g->context, g->best, start, &n, &arbitrary));
+    if (arbitrary && !g->w->said) {
         pg_statistics_warn (b->system.report,
                             "the largest stress is the same at many places: where the first crack begins is "
                             "arbitrary");
-        w->said = 1;
+        g->w->said = 1;
     }
     for (size_t k = 0; k < n; k++) {
         const trial_start *s = &start[k];
         facet_candidate c = { .tip = -1, .open = s->open, .slides = s->slides, .energy = s->energy };
         memcpy (c.from, s->from, sizeof c.from), memcpy (c.to, s->to, sizeof c.to);
         trial_fill_release (f->n, s->release, c.release);
-        c.stress[0] = f->n == 1 ? s->stress[1] : s->stress[0], c.stress[1] = f->n == 1 ? 0 : s->stress[1];
+        trial_fill_stress (f->n, s->stress, c.stress);
         PG_TRY (facet_offer (b->growth, &c));
     }
 done:
@@ -373,17 +375,22 @@ pg_status trial_facets (break_loop *b, const pg_state *state, const double *cons
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     trial_fields f;
-    if (b->system.contact && !trial_has_strength (b->system.problem)) return PG_OK;
+    int space = b->system.problem->dim == 3, starts = trial_has_strength (b->system.problem);
+    if (!starts && (space || b->system.contact)) return PG_OK;
     if (!g->trials) {
         PG_TRY (trials_create (&g->trials, &b->system));
-        doubt_interfaces (b);
+        if (!space) doubt_interfaces (b);
     }
     PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
     /* what facets of tips set free is not known where cutting changes which faces touch */
-    for (size_t i = 0; i < g->ntip && !b->system.contact; i++)
+    for (size_t i = 0; i < g->ntip && !space && !b->system.contact; i++)
         if (state->paths->tip[i].open && isnan (g->field[i].near))
             PG_TRY (offers_of_tip (b, g->trials, state, &f, i));
-    PG_TRY (offer_starts (b, g->trials, state, &f));
+    if (!starts) goto done;
+    /* proportional loads: a tip that grows earlier leaves nothing to look for */
+    double top = f.n == 1 ? facet_utilisation (b, state, 1) : 0, below = top > 0 ? 1 / top : INFINITY;
+    search all = { g->trials, state, &f, limits_at, b, below };
+    PG_TRY (space ? fronts_offer_starts (b, &all) : offer_starts (b, &all));
 done:
     return status;
 }

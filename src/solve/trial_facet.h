@@ -48,10 +48,11 @@ double    trial_reach (const pg_problem *p, const pg_state *state, const double 
 double    trial_energy_factor (const double *c, double energy);
 /* What is set free has no bound: with this cut a loaded part comes loose. */
 static inline int trial_comes_loose (const double *c) { return isinf (c[0]) || isinf (c[2]); }
-/* The bonds that each of n lengths of a new crack cuts beyond the one before. from, to: n x 3; open: its ends
- * that are tips (pg_crack_start). */
-pg_status trial_cuts (trials *w, const pg_state *state, size_t n, const double *from, const double *to,
-                      const int *open, pg_changes *cut);
+/* The bonds that each of n sizes of a new crack cuts beyond the one before. start: lets the crack of size
+ * number k begin in a state. */
+pg_status trial_cuts (trials *w, const pg_state *state, size_t n,
+                      pg_status (*start) (const void *context, pg_state *state, size_t k, pg_changes *cut),
+                      const void *context, pg_changes *cut);
 
 /* The fields of growth (pg_tip_measure) as those of trials: the second is the displacement at load factor
  * 1. */
@@ -59,10 +60,22 @@ pg_status trial_take_fields (trials *w, int nfield, const double *const *d, cons
                              trial_fields *out);
 /* A polynomial of the load factor as the form of growth's coefficients: lambda alone, or 1 and lambda. */
 void      trial_fill_release (int nfield, const double *c, double out[2][2]);
+/* A line [0] + [1] lambda likewise. */
+void      trial_fill_stress  (int nfield, const double *c, double out[2]);
 /* Does any material or interface give a strength? */
 int       trial_has_strength (const pg_problem *p);
 
 /* ---- initiation.c -------------------------------------------------------------------------------------- */
+/* What new cracks of several sizes (m) set free over size^power: polynomials of lambda, value and slope over
+ * the size; the sizes that they were fitted to. */
+typedef struct { double release[3], slope[3], power, shortest, longest; } trial_sizes;
+/* A straight line through energies over size^power (J), by least squares; through one: constant. */
+void      trial_fit        (trial_sizes *out, size_t n, const double *size, double energy[][3], int power);
+/* The polynomial of what a size sets free, J. */
+void      trial_release_of (const trial_sizes *c, double size, double out[3]);
+/* The load factor from which on v[0] + v[1] lambda reaches 1; INFINITY: none. */
+double    trial_stress_factor (const double v[2]);
+
 /* A new crack: where it would begin, and when. */
 typedef struct {
     double from[3], to[3];                             /* m */

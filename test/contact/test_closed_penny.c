@@ -81,7 +81,7 @@ static void a_flat_penny_carries_the_pressure (void **state)
         assert_true (least > (k == 2 ? 0.6 : 0.8) && most < (k == 2 ? 1.5 : 1.2));
         /* of 1e-3 m: forces are refined to 1e-12 of the residual */
         check_below (pg_solver_report_now (r.solver)->contact_overlap, 1e-13);
-        const pg_front_values *f = pg_solver_fronts (r.solver, &nfront);
+        const pg_tip_values *f = pg_solver_tips (r.solver, &nfront);
         assert_true (nfront > 10);
         double opening = 2 * sqrt (4 / 3.14159265358979);
         for (size_t i = 0; i < nfront; i++) {
@@ -96,7 +96,7 @@ static void a_flat_penny_carries_the_pressure (void **state)
 static double differs (const run *a, const run *b, double scale)
 {
     size_t n, m;
-    const pg_front_values *f = pg_solver_fronts (a->solver, &n), *g = pg_solver_fronts (b->solver, &m);
+    const pg_tip_values *f = pg_solver_tips (a->solver, &n), *g = pg_solver_tips (b->solver, &m);
     double most = 0, off = 0;
     assert_int_equal (n, m);
     for (size_t i = 0; i < n; i++)

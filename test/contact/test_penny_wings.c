@@ -114,7 +114,7 @@ static void end_kinks (const penny *l, const run *r, double kink[2])
 static double largest_II (const run *r)
 {
     size_t n;
-    const pg_front_values *f = pg_solver_fronts (r->solver, &n);
+    const pg_tip_values *f = pg_solver_tips (r->solver, &n);
     double most = 0;
     for (size_t i = 0; i < n; i++) {
         most = fmax (most, fabs (f[i].K[1]));

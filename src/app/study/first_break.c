@@ -153,16 +153,12 @@ static void find_facet (pg_first_break *b, const pg_crack_paths *w)
 }
 
 /* The largest utilisation of a tip, or of a vertex of a front, that the solver knows. */
-static double largest_utilisation (const pg_solver *solver, const pg_crack_paths *w)
+static double largest_utilisation (const pg_solver *solver)
 {
     double top = 0;
     size_t n = 0;
-    const pg_front_values *value = pg_solver_fronts (solver, &n);
+    const pg_tip_values *value = pg_solver_tips (solver, &n);
     for (size_t i = 0; i < n; i++) if (value[i].utilisation > top) top = value[i].utilisation;
-    for (size_t t = 0; w && t < w->ntip; t++) {
-        const pg_tip_values *v = pg_solver_tip (solver, w->tip[t].id);
-        if (v) top = fmax (top, v->utilisation);
-    }
     return top;
 }
 
@@ -182,7 +178,7 @@ static pg_status find_growth (pg_first_break *b, const pg_problem *p, const pg_s
     PG_TRY (pg_solver_create (&solver, p, &once));
     PG_TRY (pg_state_create (&state, p, pg_solver_components (solver)));
     PG_TRY (pg_solver_step (solver, state, &step));
-    double top = largest_utilisation (solver, state->paths);
+    double top = largest_utilisation (solver);
     find_facet (b, state->paths);
     if (state->surfaces) find_advance (b, state->surfaces);
     if (b->grows) b->factor = step.factor, b->utilisation = 1;
