@@ -575,7 +575,6 @@ double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t
  * most `limit`. place (2) and what may be NULL. */
 double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size_t tip, double limit,
                           double *place, int *what);
-double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
 /* Distance from x (2, m) on a tip's path to surface, other path, branch or open tip, m, at most `limit`. */
 double    pg_path_room (const pg_problem *problem, const pg_state *state, size_t tip, const double *x,
                         double limit);

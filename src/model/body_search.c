@@ -110,3 +110,35 @@ double pg_problem_way_out (const pg_problem *p, const double *x, const double *e
     }
     return limit;
 }
+
+/* Cells that a lattice rim may lie outside the surface, spacings. In space what lies on the surface, to
+ * rounding, is body. */
+#define BEYOND_SURFACE 1.0
+double pg_problem_beyond (const pg_problem *p, const double *x, const double *e)
+{
+    double h = pg_problem_spacing_at (p, x), slack = p->dim == 3 ? pg_cloud_same (&p->cloud) : 0;
+    int free = 0;
+    for (int part = 1; part <= STEPS; part++) {
+        double place[3] = { 0 };
+        for (int k = 0; k < p->dim; k++) place[k] = x[k] + BEYOND_SURFACE * h * part / STEPS * e[k];
+        int body = p->body.n ? pg_body_inside (&p->body, place, slack) : pg_problem_has_body (p, place);
+        if (body && free) return BEYOND_SURFACE * h * (part - 1) / STEPS;
+        free |= !body;
+    }
+    return free ? BEYOND_SURFACE * h : 0;
+}
+
+/* Strips across, weighed by their length. */
+double pg_problem_area_inside (const pg_problem *p, const double *o, const double *u, const double *v,
+                               double area)
+{
+    enum { PLACES = 12 };
+    double in = 0, all = 0;
+    for (int a = 0; a < PLACES * PLACES; a++) {
+        double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
+        for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
+        all += r;
+        if (pg_problem_has_body (p, x)) in += r;
+    }
+    return area * in / all;
+}

@@ -14,15 +14,6 @@
 
 /* Of a tip, in parts of the length of its path, at most. */
 #define OFFSET_OF_PATH 0.25
-/* Cells that a lattice rim may lie outside the surface, spacings. */
-#define BEYOND_SURFACE 1.0
-
-/* Do two places lie at one? */
-static int same_place (const pg_crack_paths *w, const double *a, const double *b)
-{
-    double x = a[0] - b[0], y = a[1] - b[1];
-    return fabs (x) <= w->nothing && fabs (y) <= w->nothing && hypot (x, y) <= w->nothing;
-}
 
 /* ---- walking along a path ------------------------------------------------------------------------------ */
 /* A piece, and the end at which it is entered; the walk leaves at the other. */
@@ -51,7 +42,7 @@ static int walk_onto (walk *at, size_t j)
     for (int end = 0; end < 2; end++) {
         /* all pieces of a path run in one direction, but for cracks of the scene */
         int e = end ? 1 - at->end : at->end;
-        if (j == at->piece || !same_place (at->w, vertex_of (at->w, j, e), x)) continue;
+        if (j == at->piece || !pg_crack_paths_same (at->w, vertex_of (at->w, j, e), x)) continue;
         *at = (walk) { at->w, j, e, length_of (at->w, j) };
         return 1;
     }
@@ -192,22 +183,6 @@ static double offset_at (const pg_state *state, const pg_problem *p, size_t tip,
     return fmin (o, OFFSET_OF_PATH * pg_tip_behind (state, tip, o / OFFSET_OF_PATH));
 }
 
-/* How far a path that ends at x, going in direction e, cuts beyond: on the surface as far as points may lie
- * outside of it, but not into body that follows; elsewhere not at all. */
-static double beyond (const pg_problem *p, const double *x, const double *e)
-{
-    enum { PARTS = 8 };
-    double h = pg_problem_spacing_at (p, x), place[3] = { 0 };
-    int free = 0;
-    for (int part = 1; part <= PARTS; part++) {
-        for (int k = 0; k < 2; k++) place[k] = x[k] + BEYOND_SURFACE * h * part / PARTS * e[k];
-        int body = pg_problem_has_body (p, place);
-        if (body && free) return BEYOND_SURFACE * h * (part - 1) / PARTS;
-        free |= !body;
-    }
-    return free ? BEYOND_SURFACE * h : 0;
-}
-
 /* Where the path of a tip cuts no bonds: up to `offset` behind it; negative: so far beyond it. Pieces up to
  * `far` behind the tip are brought in line and marked. */
 static void set_retreats (pg_crack_paths *w, const pg_tip *t, double offset, double far,
@@ -282,7 +257,7 @@ static void close_tip (pg_crack_paths *w, const pg_problem *p, size_t tip, unsig
     double e[2], before = t->offset;
     heading (&at, e);
     t->open = 0, t->offset = 0;
-    set_retreats (w, t, -fmax (w->nothing, beyond (p, t->x, e)), before + w->nothing, changed);
+    set_retreats (w, t, -fmax (w->nothing, pg_problem_beyond (p, t->x, e)), before + w->nothing, changed);
 }
 
 /* Tips of other paths that the place belongs to end with it. */
@@ -360,7 +335,7 @@ pg_status pg_crack_start (pg_state *s, const pg_problem *p, const double *from, 
             *retreat = t->offset = offset_at (&view, p, w->ntip - 1, open & PG_START_SLIDES);
         } else {
             for (int m = 0; m < 2; m++) e[m] /= length;
-            *retreat = -fmax (w->nothing, beyond (p, vertex_of (w, k, at), e));
+            *retreat = -fmax (w->nothing, pg_problem_beyond (p, vertex_of (w, k, at), e));
         }
     }
     PG_TRY (finish (&c, s, p, cut));

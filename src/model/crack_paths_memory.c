@@ -38,8 +38,7 @@ done:
     return status;
 }
 
-/* Do two places lie at one? */
-static int same_place (const pg_crack_paths *w, const double *a, const double *b)
+int pg_crack_paths_same (const pg_crack_paths *w, const double *a, const double *b)
 {
     double x = a[0] - b[0], y = a[1] - b[1];
     return fabs (x) <= w->nothing && fabs (y) <= w->nothing && hypot (x, y) <= w->nothing;
@@ -49,8 +48,9 @@ static int same_place (const pg_crack_paths *w, const double *a, const double *b
 static int hang_together (const pg_crack_paths *w, size_t k, size_t j)
 {
     const double *a = w->cracks.crack[k].vertex, *b = w->cracks.crack[j].vertex;
-    return same_place (w, a, b) || same_place (w, a, b + 2) || same_place (w, a + 2, b)
-           || same_place (w, a + 2, b + 2);
+    for (int end = 0; end < 4; end++)
+        if (pg_crack_paths_same (w, a + 2 * (end / 2), b + 2 * (end % 2))) return 1;
+    return 0;
 }
 
 /* Cracks of the scene that share vertices are one path, named after its first piece. */

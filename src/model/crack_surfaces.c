@@ -59,8 +59,7 @@ done:
     return status;
 }
 
-/* Adds a place to the line; one where the surface has a vertex already is that vertex. */
-static pg_status to_line (stride *s, const double *x, const double *normal)
+pg_status stride_to_line (stride *s, const double *x, const double *normal)
 {
     pg_status status = PG_OK;
     size_t v = SIZE_MAX;
@@ -78,8 +77,7 @@ done:
     return status;
 }
 
-/* The line goes on beyond the end of a front on the surface, in the direction from its neighbour. */
-static pg_status beyond_end (stride *s, unsigned char meets, const double *end, const double *beside,
+pg_status stride_beyond_end (stride *s, unsigned char meets, const double *end, const double *beside,
                              const double *normal)
 {
     pg_status status = PG_OK;
@@ -88,21 +86,21 @@ static pg_status beyond_end (stride *s, unsigned char meets, const double *end, 
     if (meets == PG_MEETS_NOTHING || !pg_unit3 (e)) return PG_OK;
     double a = meets == PG_MEETS_SURFACE ? pg_problem_way_out (s->p, end, e, h) : surface_flap * h;
     pg_shift3 (end, e, a, out);
-    if (meets == PG_MEETS_SURFACE) pg_shift3 (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
-    PG_TRY (to_line (s, out, normal));
+    if (meets == PG_MEETS_SURFACE && a < h) pg_shift3 (end, e, a + pg_problem_beyond (s->p, out, e), out);
+    PG_TRY (stride_to_line (s, out, normal));
 done:
     return status;
 }
 
-/* Places c of all vertices of a front, with what lies beyond its ends. */
-static pg_status line_of (stride *s, const pg_front *f, const double *c)
+/* Places c of the vertices of a front from number `first` on, with what lies beyond its ends if asked. */
+static pg_status line_of (stride *s, const pg_front *f, const double *c, size_t first, int starts, int stops)
 {
     pg_status status = PG_OK;
-    size_t n = f->n;
-    if (!f->closed) PG_TRY (beyond_end (s, f->meets[0], c, c + 3, f->normal));
-    for (size_t i = 0; i < n; i++) PG_TRY (to_line (s, c + 3*i, f->normal + 3*i));
-    if (!f->closed)
-        PG_TRY (beyond_end (s, f->meets[n - 1], c + 3 * (n - 1), c + 3 * (n - 2), f->normal + 3 * (n - 1)));
+    size_t n = f->n, last = 3 * (n - 1);
+    if (starts) PG_TRY (stride_beyond_end (s, f->meets[0], c, c + 3, f->normal));
+    for (size_t i = first; i < n; i++) PG_TRY (stride_to_line (s, c + 3*i, f->normal + 3*i));
+    if (stops)
+        PG_TRY (stride_beyond_end (s, f->meets[n - 1], c + last, c + last - 3, f->normal + last));
 done:
     return status;
 }
@@ -144,7 +142,7 @@ static pg_status first_rim (stride *s)
                    -2 * s->old.offset[i] - OVERLAP * stride_spacing (s, i),
                c + 3*i);
     PG_TRY (begin_line (s));
-    PG_TRY (line_of (s, &s->old, c));
+    PG_TRY (line_of (s, &s->old, c, 0, !s->old.closed, !s->old.closed));
     PG_TRY (take_as_rim (s));
 done:
     pg_free (c);
@@ -175,16 +173,11 @@ done:
     return status;
 }
 
-/* Adds the front of a part to the line; its rim is that stretch of the line. `shared`: its first vertex is
- * the last of the line already. */
-static pg_status lay (stride *s, pg_front *f, const double *c, int shared, int starts, int stops)
+pg_status stride_lay (stride *s, pg_front *f, const double *c, int shared, int starts, int stops)
 {
     pg_status status = PG_OK;
-    size_t first = s->nline - (size_t) shared, n = f->n;
-    if (starts) PG_TRY (beyond_end (s, f->meets[0], c, c + 3, f->normal));
-    for (size_t i = (size_t) shared; i < n; i++) PG_TRY (to_line (s, c + 3*i, f->normal + 3*i));
-    if (stops)
-        PG_TRY (beyond_end (s, f->meets[n - 1], c + 3 * (n - 1), c + 3 * (n - 2), f->normal + 3 * (n - 1)));
+    size_t first = s->nline - (size_t) shared;
+    PG_TRY (line_of (s, f, c, (size_t) shared, starts, stops));
     f->nrim = s->nline - first;
     PG_GROW (f->rim, f->rim_capacity, f->nrim);
     memcpy (f->rim, s->line + first, f->nrim * sizeof *f->rim);
@@ -225,8 +218,8 @@ static pg_status around_edge (stride *s, size_t i, size_t j)
     double r = pg_problem_way_out (s->p, middle, way, surface_run_out * h);
     pg_shift3 (middle, way, r, out);
     s->w->area += triangle_area3 (x, out, y);
-    pg_shift3 (out, way, space_beyond (s->p, out, way), out);
-    PG_TRY (to_line (s, out, s->now.normal + 3*i));
+    pg_shift3 (out, way, pg_problem_beyond (s->p, out, way), out);
+    PG_TRY (stride_to_line (s, out, s->now.normal + 3*i));
 done:
     return status;
 }
@@ -242,7 +235,7 @@ static pg_status divide (stride *s)
     PG_TRY (begin_line (s));
     if (s->nshut == 0) {
         PG_TRY (part_of (s, 0, n, &part, &c));
-        PG_TRY (lay (s, &part, c, 0, !loop, !loop));
+        PG_TRY (stride_lay (s, &part, c, 0, !loop, !loop));
         PG_TRY (settle (s, &part, &parts));
         goto done;
     }
@@ -257,15 +250,15 @@ static pg_status divide (stride *s)
         if (s->shut[i] && !(loop && k == n)) {
             int last = !loop && k + 1 == n;
             const double *normal = s->now.normal + 3*i, *at = s->c + 3*i;
-            if (k == 0 && !loop) PG_TRY (beyond_end (s, s->now.meets[0], at, s->c + 3, normal));
-            PG_TRY (to_line (s, at, normal));
-            if (last) PG_TRY (beyond_end (s, s->now.meets[i], at, s->c + 3 * (i - 1), normal));
+            if (k == 0 && !loop) PG_TRY (stride_beyond_end (s, s->now.meets[0], at, s->c + 3, normal));
+            PG_TRY (stride_to_line (s, at, normal));
+            if (last) PG_TRY (stride_beyond_end (s, s->now.meets[i], at, s->c + 3 * (i - 1), normal));
         }
         if (s->shut[i]) { k++; continue; }
         while (k + m < steps && !s->shut[(begin + k + m) % n]) m++;
         int right = k + m < steps;
         PG_TRY (part_of (s, (i + n - (size_t) left) % n, m + (size_t) left + (size_t) right, &part, &c));
-        PG_TRY (lay (s, &part, c, left, !left, !right));
+        PG_TRY (stride_lay (s, &part, c, left, !left, !right));
         PG_TRY (settle (s, &part, &parts));
         pg_free (c), c = NULL;
         k += m + (size_t) right;                       /* the closed vertex on the right is laid */
@@ -328,7 +321,7 @@ static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, 
     PG_TRY (first_rim (&s));
     if (bends (&s)) {
         PG_TRY (begin_line (&s));
-        PG_TRY (line_of (&s, &s.old, s.bend));
+        PG_TRY (line_of (&s, &s.old, s.bend, 0, !s.old.closed, !s.old.closed));
         PG_TRY (tile (&s));
     }
     PG_TRY (divide (&s));

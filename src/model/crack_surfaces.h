@@ -34,8 +34,6 @@ pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface
 double triangle_area3 (const double *a, const double *b, const double *c);
 
 /* ---- crack_surfaces_meet.c ----------------------------------------------------------------------------- */
-/* How far a crack that ends on the surface at x, going in direction e, cuts beyond it. */
-double space_beyond (const pg_problem *p, const double *x, const double *e);
 /* The place of the surface nearest to x within the plane of e (unit, about towards the surface) and u (unit,
  * across e), and the direction of the surface in that plane. 0: there is none up to `limit`. */
 int space_foot (const pg_problem *p, const double *x, const double *e, const double *u, double limit,
@@ -96,6 +94,14 @@ int  stride_is_end (const stride *s, size_t i);
 double stride_spacing (const stride *s, size_t i);
 
 /* ---- crack_surfaces.c ---------------------------------------------------------------------------------- */
+/* Adds a place to the new line; one where the surface has a vertex already is that vertex. */
+pg_status stride_to_line    (stride *s, const double *x, const double *normal);
+/* The line goes on beyond the end of a front on the surface, in the direction from its neighbour. */
+pg_status stride_beyond_end (stride *s, unsigned char meets, const double *end, const double *beside,
+                             const double *normal);
+/* Adds the vertices of a front, whose crack cuts to c, to the line; its rim is that stretch of the line.
+ * shared: its first vertex is the last of the line already. starts, stops: with what lies beyond its ends. */
+pg_status stride_lay        (stride *s, pg_front *f, const double *c, int shared, int starts, int stops);
 /* A copy to work on; and its place in the state, with the bonds that what is new cuts. */
 pg_status surfaces_begin  (pg_crack_surfaces **fresh, const pg_state *state);
 pg_status surfaces_finish (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p, pg_changes *cut);

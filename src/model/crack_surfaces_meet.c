@@ -6,47 +6,14 @@
 #include "crack_surfaces.h"
 #include <string.h>
 
-/* Steps of a way in a spacing. */
-enum { STEPS = 8 };
 static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
 /* A surface at an angle is looked for so far away, spacings. */
 static const double seen_to = 10;
-/* How far a crack cuts beyond the surface, for points may lie outside of it: spacings. */
-static const double beyond_surface = 1;
 /* Nearer hits are the crack that the vertex itself belongs to, spacings. Vertices that were distributed anew
  * beside a stretch that stayed lie up to t (1 - t)^2 / 2 = 0.074 behind the outline that the crack was drawn
  * with: the cubic through them swings so far to the other side of a step of one spacing. What belongs to
  * another crack cannot be so near: a vertex goes there as soon as it would end within 0.6 spacings of it. */
 static const double own = 0.15;
-
-static int body_at (const pg_problem *p, const double *x, const double *e, double r)
-{
-    double place[3];
-    for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
-    return pg_problem_has_body (p, place);
-}
-
-/* Is x + r e in the body or on its surface, to rounding? */
-static int body_near (const pg_problem *p, const double *x, const double *e, double r)
-{
-    double place[3];
-    if (!p->body.n) return body_at (p, x, e, r);
-    for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
-    return pg_body_inside (&p->body, place, pg_cloud_same (&p->cloud));
-}
-
-/* Not into body that follows. 0 along the surface. */
-double space_beyond (const pg_problem *p, const double *x, const double *e)
-{
-    double h = pg_problem_spacing_at (p, x);
-    int free = 0;
-    for (int part = 1; part <= STEPS; part++) {
-        int body = body_near (p, x, e, beyond_surface * h * part / STEPS);
-        if (body && free) return beyond_surface * h * (part - 1) / STEPS;
-        free |= !body;
-    }
-    return free ? beyond_surface * h : 0;
-}
 
 /* Distance at which a ray meets a plane crack, drawn whole; INFINITY: nowhere up to `limit`, or along it. */
 static double ray_to_crack (const pg_crack *c, const double *x, const double *e, double limit, double h)
@@ -54,10 +21,10 @@ static double ray_to_crack (const pg_crack *c, const double *x, const double *e,
     const double *o = c->kind == PG_CRACK_DISC ? c->centre : c->vertex;
     double slope = pg_dot3 (c->normal, e), w[3], place[3];
     if (!(fabs (slope) > 1e-6)) return INFINITY;
-    for (int k = 0; k < 3; k++) w[k] = o[k] - x[k];
+    pg_shift3 (o, x, -1, w);
     double r = pg_dot3 (c->normal, w) / slope;
     if (!(r > own * h && r <= limit)) return INFINITY;
-    for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
+    pg_shift3 (x, e, r, place);
     pg_crack whole = *c;
     whole.retreat = NULL;
     return pg_crack_touches (&whole, 3, place, PG_NO_LENGTH * h) ? r : INFINITY;
@@ -81,9 +48,9 @@ static double ray_to_cracks (const pg_cracks *c, const double *x, const double *
 static double nearest_of (const double *a, const double *b, const double *x, double *place)
 {
     double t[3], v[3];
-    for (int k = 0; k < 3; k++) t[k] = b[k] - a[k], v[k] = x[k] - a[k];
+    pg_shift3 (b, a, -1, t), pg_shift3 (x, a, -1, v);
     double size = pg_dot3 (t, t), s = size > 0 ? fmin (1, fmax (0, pg_dot3 (t, v) / size)) : 0;
-    for (int k = 0; k < 3; k++) place[k] = a[k] + s * t[k];
+    pg_shift3 (a, t, s, place);
     return pg_distance3 (place, x);
 }
 
@@ -108,7 +75,7 @@ static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, con
             size_t next = (j + 1) % f->n;
             if (g == front && same_stretch (f, i, j, next)) continue;
             double d = nearest_of (f->x + 3*j, f->x + 3*next, goal, try);
-            for (int k = 0; k < 3; k++) way[k] = try[k] - x[k];
+            pg_shift3 (try, x, -1, way);
             if (!(d <= limit && d < best) || !(pg_dot3 (way, e) > 0)) continue;
             best = d, memcpy (place, try, sizeof try);
         }
@@ -129,7 +96,7 @@ int space_foot (const pg_problem *p, const double *x, const double *e, const dou
         if (!(r < limit)) return 0;
         pg_shift3 (x, way, r, hit[side]);
     }
-    for (int k = 0; k < 3; k++) along[k] = hit[1][k] - hit[0][k], d[k] = x[k] - hit[0][k];
+    pg_shift3 (hit[1], hit[0], -1, along), pg_shift3 (x, hit[0], -1, d);
     if (!pg_unit3 (along)) return 0;
     pg_shift3 (hit[0], along, pg_dot3 (d, along), foot);
     return 1;
@@ -155,7 +122,7 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
         way = a, *meets = PG_MEETS_SURFACE;
     double r = ray_to_cracks (&w->cracks, x, e, d + to_crack * h, h);
     if (r < way || (*meets == PG_MEETS_NOTHING && r <= d + to_crack * h)) way = r, *meets = PG_MEETS_CRACK;
-    for (int k = 0; k < 3; k++) place[k] = x[k] + way * e[k];
+    pg_shift3 (x, e, way, place);
     if (*meets != PG_MEETS_NOTHING) return way;
     memcpy (goal, place, sizeof goal);
     if (to_fronts (w, front, i, e, goal, to_crack * h, place) <= to_crack * h) *meets = PG_MEETS_CRACK;

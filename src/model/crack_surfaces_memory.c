@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Memory of the surfaces of growing cracks (crack_surfaces.c): made with a state, copied with it, kept in its
- * checkpoints. Triangles are kept as their corners among the vertices, so that the neighbours which a resumed
- * run sees are bit by bit those of the run that wrote the checkpoint. */
+ * Memory of the surfaces of growing cracks (crack_surfaces.c) and of their fronts: made with a state, copied
+ * with it, kept in its checkpoints. Triangles are kept as their corners among the vertices, so that the
+ * neighbours which a resumed run sees are bit by bit those of the run that wrote the checkpoint. */
 #include "crack_surfaces.h"
 #include <stdint.h>
 #include <stdio.h>
@@ -13,6 +13,52 @@
         if (!more_) PG_FAIL (PG_E_MEMORY, "no memory for a crack of %zu parts", (size_t) (n)); \
         (p) = more_; \
     } while (0)
+
+/* ---- fronts -------------------------------------------------------------------------------------------- */
+/* Makes room for n vertices of a front, and as many more: it seldom moves while it grows one by one. */
+pg_status pg_front_reserve (pg_front *f, size_t n)
+{
+    pg_status status = PG_OK;
+    if (n <= f->capacity) return PG_OK;
+    size_t most = 2 * n + 16;
+    RESIZE (f->x, 3 * most);
+    RESIZE (f->normal, 3 * most);
+    RESIZE (f->ahead, 3 * most);
+    RESIZE (f->offset, most);
+    RESIZE (f->grown, most);
+    RESIZE (f->meets, most);
+    f->capacity = most;
+done:
+    return status;
+}
+
+pg_status pg_front_copy (pg_front *to, const pg_front *from)
+{
+    pg_status status = PG_OK;
+    size_t n = from->n;
+    PG_TRY (pg_front_reserve (to, n));
+    PG_GROW (to->rim, to->rim_capacity, from->nrim);
+    to->id = from->id, to->of = from->of;
+    to->closed = from->closed, to->open = from->open, to->n = n, to->nrim = from->nrim;
+    if (n) {
+        memcpy (to->x, from->x, 3 * n * sizeof *to->x);
+        memcpy (to->normal, from->normal, 3 * n * sizeof *to->x);
+        memcpy (to->ahead, from->ahead, 3 * n * sizeof *to->x);
+        memcpy (to->offset, from->offset, n * sizeof *to->x);
+        memcpy (to->grown, from->grown, n * sizeof *to->x);
+        memcpy (to->meets, from->meets, n);
+    }
+    if (from->nrim) memcpy (to->rim, from->rim, from->nrim * sizeof *to->rim);
+done:
+    return status;
+}
+
+void pg_front_clear (pg_front *f)
+{
+    pg_free (f->x), pg_free (f->normal), pg_free (f->ahead), pg_free (f->offset), pg_free (f->grown);
+    pg_free (f->meets), pg_free (f->rim);
+    memset (f, 0, sizeof *f);
+}
 
 pg_status surfaces_reserve_fronts (pg_crack_surfaces *w, size_t n)
 {
@@ -113,82 +159,78 @@ static const char *part_of (walk *v, const char *suffix)
 }
 
 /* Triangles: three corners and an owner each; normals as they are, for slivers have theirs from the front. */
-static pg_status keep_triangles (walk *v, size_t n)
+static void give_triangle (void *context, size_t i, long *count, double *number)
+{
+    const pg_crack_surfaces *w = context;
+    const pg_crack *c = &w->cracks.crack[w->nfirst + i];
+    for (size_t a = 0; a < 3; a++) count[a] = (long) w->corner[3*i + a];
+    memcpy (number, c->normal, 3 * sizeof *number);
+    count[3] = w->owner[i], number[3] = c->width;
+}
+
+static pg_status take_triangle (void *context, size_t i, const long *count, const double *number,
+                                const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { COUNTS = 4, NUMBERS = 4 };
-    pg_crack_surfaces *w = v->w;
-    long *count = NULL;
-    double *number = NULL;
-    PG_ALLOC (count, COUNTS * n + 1);
-    PG_ALLOC (number, NUMBERS * n + 1);
-    for (size_t i = 0; !v->k->reading && i < n; i++) {
-        const pg_crack *c = &w->cracks.crack[w->nfirst + i];
-        for (size_t a = 0; a < 3; a++)
-            count[COUNTS * i + a] = (long) w->corner[3*i + a], number[NUMBERS * i + a] = c->normal[a];
-        count[COUNTS * i + 3] = w->owner[i], number[NUMBERS * i + 3] = c->width;
+    pg_crack_surfaces *w = context;
+    size_t corner[3];
+    (void) i;                                          /* one after the other */
+    for (int a = 0; a < 3; a++) {
+        PG_KEEP_BOUND (k, "the corner of a triangle", count[a], 0, (long) w->nvertex - 1);
+        corner[a] = (size_t) count[a];
     }
-    PG_TRY (v->k->counts (v->k->context, part_of (v, "triangles"), COUNTS * n, count));
-    PG_TRY (v->k->numbers (v->k->context, part_of (v, "normals"), NUMBERS * n, number));
-    for (size_t i = 0; v->k->reading && i < n; i++) {
-        size_t corner[3];
-        for (size_t a = 0; a < 3; a++) {
-            PG_KEEP_BOUND (v->k, "the corner of a triangle", count[COUNTS * i + a], 0, (long) w->nvertex - 1);
-            corner[a] = (size_t) count[COUNTS * i + a];
-        }
-        surfaces_put_triangle (w, corner, number + NUMBERS * i, number[NUMBERS * i + 3],
-                               count[COUNTS * i + 3]);
-    }
+    surfaces_put_triangle (w, corner, number, number[3], count[3]);
 done:
-    pg_free (count), pg_free (number);
     return status;
 }
 
-/* Fronts: counts of each, then their vertices: eleven numbers and one whole number each, and their rims. */
-static pg_status keep_front (walk *v, size_t number_of, const long *size)
+/* Vertices of fronts: eleven numbers and what they meet. */
+static void give_vertex (void *context, size_t i, long *count, double *number)
+{
+    const pg_front *f = context;
+    memcpy (number, f->x + 3*i, 3 * sizeof *number), memcpy (number + 3, f->normal + 3*i, 3 * sizeof *number);
+    memcpy (number + 6, f->ahead + 3*i, 3 * sizeof *number);
+    number[9] = f->offset[i], number[10] = f->grown[i], count[0] = f->meets[i];
+}
+
+static pg_status take_vertex (void *context, size_t i, const long *count, const double *number,
+                              const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { NUMBERS = 11 };
+    pg_front *f = context;
+    PG_KEEP_BOUND (k, "what a front meets", count[0], 0, PG_MEETS_CRACK);
+    memcpy (f->x + 3*i, number, 3 * sizeof *number), memcpy (f->normal + 3*i, number + 3, 3 * sizeof *number);
+    memcpy (f->ahead + 3*i, number + 6, 3 * sizeof *number);
+    f->offset[i] = number[9], f->grown[i] = number[10], f->meets[i] = (unsigned char) count[0];
+done:
+    return status;
+}
+
+/* The vertices of a front, of which there are n, and its rim. */
+static pg_status keep_front (walk *v, size_t number_of, size_t n, size_t rim)
+{
+    pg_status status = PG_OK;
     pg_front *f = &v->w->front[number_of];
-    size_t n = (size_t) size[0], rim = (size_t) size[1], at = 0;
-    char suffix[40];
+    char places[96], meets[96], suffix[40];
     long *count = NULL;
-    double *number = NULL;
-    PG_ALLOC (count, n + rim + 1);
-    PG_ALLOC (number, NUMBERS * n + 1);
+    PG_ALLOC (count, rim + 1);
     PG_TRY (pg_front_reserve (f, n));
     PG_GROW (f->rim, f->rim_capacity, rim);
-    double *array[5] = { f->x, f->normal, f->ahead, f->offset, f->grown };
-    if (!v->k->reading) {
-        for (int a = 0; a < 5; a++) {
-            size_t m = n * (a < 3 ? 3 : 1);
-            if (m) memcpy (number + at, array[a], m * sizeof *number);
-            at += m;
-        }
-        for (size_t i = 0; i < n; i++) count[i] = f->meets[i];
-        for (size_t i = 0; i < rim; i++) count[n + i] = (long) f->rim[i];
-    }
-    snprintf (suffix, sizeof suffix, "front.%zu.places", number_of);
-    PG_TRY (v->k->numbers (v->k->context, part_of (v, suffix), NUMBERS * n, number));
+    for (size_t i = 0; !v->k->reading && i < rim; i++) count[i] = (long) f->rim[i];
+    snprintf (places, sizeof places, "%s.front.%zu.places", v->name, number_of);
+    snprintf (meets, sizeof meets, "%s.front.%zu.meets", v->name, number_of);
+    PG_TRY (pg_keep_records (v->k, &(pg_records) { .count_name = meets, .number_name = places, .n = n,
+                                                   .counts = 1, .numbers = 11, .give = give_vertex,
+                                                   .take = take_vertex, .context = f }));
     snprintf (suffix, sizeof suffix, "front.%zu.rim", number_of);
-    PG_TRY (v->k->counts (v->k->context, part_of (v, suffix), n + rim, count));
-    if (!v->k->reading) goto done;
-    for (int a = 0; a < 5; a++) {
-        size_t m = n * (a < 3 ? 3 : 1);
-        if (m) memcpy (array[a], number + at, m * sizeof *number);
-        at += m;
-    }
-    for (size_t i = 0; i < n; i++) {
-        PG_KEEP_BOUND (v->k, "what a front meets", count[i], 0, PG_MEETS_CRACK);
-        f->meets[i] = (unsigned char) count[i];
-    }
+    PG_TRY (v->k->counts (v->k->context, part_of (v, suffix), rim, count));
     for (size_t i = 0; i < rim; i++) {
-        PG_KEEP_BOUND (v->k, "the rim of a front", count[n + i], 0, (long) v->w->nvertex - 1);
-        f->rim[i] = (size_t) count[n + i];
+        PG_KEEP_BOUND (v->k, "the rim of a front", count[i], 0, (long) v->w->nvertex - 1);
+        f->rim[i] = (size_t) count[i];
     }
     f->n = n, f->nrim = rim;
 done:
-    pg_free (count), pg_free (number);
+    pg_free (count);
     return status;
 }
 
@@ -212,7 +254,7 @@ static pg_status keep_fronts (walk *v, size_t n, long most)
         PG_KEEP_BOUND (v->k, "the length of a rim", c[1], 0, most);
         PG_KEEP_BOUND (v->k, "whether a front is a loop", c[4], 0, 1);
         PG_KEEP_BOUND (v->k, "whether a front is open", c[5], 0, 1);
-        PG_TRY (keep_front (v, i, c));
+        PG_TRY (keep_front (v, i, (size_t) c[0], (size_t) c[1]));
         w->front[i].id = c[2], w->front[i].of = c[3];
         w->front[i].closed = (int) c[4], w->front[i].open = (int) c[5];
     }
@@ -241,7 +283,13 @@ pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, con
     if (count[1])
         PG_TRY (k->numbers (k->context, part_of (&v, "vertices"), 3 * (size_t) count[1], w->vertex));
     w->nvertex = (size_t) count[1];
-    PG_TRY (keep_triangles (&v, (size_t) count[0]));
+    char corners[96], normals[96];
+    snprintf (corners, sizeof corners, "%s.triangles", name);
+    snprintf (normals, sizeof normals, "%s.normals", name);
+    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = corners, .number_name = normals,
+                                                .n = (size_t) count[0], .counts = 4, .numbers = 4,
+                                                .give = give_triangle, .take = take_triangle,
+                                                .context = w }));
     PG_TRY (keep_fronts (&v, (size_t) count[2], most));
     w->nfront = (size_t) count[2];
     if (k->reading) PG_TRY (pg_cracks_index (&w->cracks));

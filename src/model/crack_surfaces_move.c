@@ -286,7 +286,7 @@ static const double *rim_at (const stride *s, size_t i, const double *place)
 static double overshoot (const stride *s, size_t i, const double *way)
 {
     double h = stride_spacing (s, i), *x = s->now.x + 3*i;
-    if (s->now.meets[i] == PG_MEETS_SURFACE) return fmax (s->w->nothing, space_beyond (s->p, x, way));
+    if (s->now.meets[i] == PG_MEETS_SURFACE) return fmax (s->w->nothing, pg_problem_beyond (s->p, x, way));
     return s->now.meets[i] == PG_MEETS_CRACK ? surface_flap * h : s->w->nothing;
 }
 

@@ -13,14 +13,12 @@
 enum { HALVINGS = 50 };
 
 typedef struct {
-    pg_crack_surfaces *w;
-    const pg_problem *p;
+    stride s;                                          /* surfaces, problem, and where the crack cuts to */
     size_t n;
     double *x;                                         /* the polygon, in the order of fronts (n x 3) */
     const double *normal;
     double middle[3], offset;
     unsigned char *in;                                 /* whether its vertices lie in the body */
-    size_t *line, nline, line_capacity;                /* where the crack cuts to, as vertices of w */
 } patch;
 
 /* The tangent of a front is ahead x normal: seen from the side that the normal shows to it runs clockwise. */
@@ -39,13 +37,13 @@ static pg_status read (patch *c, size_t n, const double *x)
         pg_cross3 (u, v, turn);
         sum += 0.5 * pg_dot3 (turn, c->normal);
     }
-    if (!(fabs (sum) > c->w->nothing * c->w->nothing))
+    if (!(fabs (sum) > c->s.w->nothing * c->s.w->nothing))
         PG_FAIL (PG_E_USAGE, "a crack cannot begin with an area of %g m^2", fabs (sum));
     c->n = n;
-    c->offset = fmin (front_offset_at (c->p, c->middle), OFFSET_OF_SIZE * sqrt (fabs (sum)));
+    c->offset = fmin (front_offset_at (c->s.p, c->middle), OFFSET_OF_SIZE * sqrt (fabs (sum)));
     for (size_t i = 0; i < n; i++) {
         memcpy (c->x + 3*i, x + 3 * (sum > 0 ? n - 1 - i : i), 3 * sizeof *x);
-        c->in[i] = (unsigned char) pg_problem_has_body (c->p, c->x + 3*i);
+        c->in[i] = (unsigned char) pg_problem_has_body (c->s.p, c->x + 3*i);
     }
 done:
     return status;
@@ -59,7 +57,7 @@ static void leave (const patch *c, size_t inside, size_t outside, double *place)
     for (int i = 0; i < HALVINGS; i++) {
         double t = 0.5 * (near + far);
         for (int k = 0; k < 3; k++) place[k] = a[k] + t * (b[k] - a[k]);
-        if (pg_problem_has_body (c->p, place)) near = t;
+        if (pg_problem_has_body (c->s.p, place)) near = t;
         else far = t;
     }
     for (int k = 0; k < 3; k++) place[k] = a[k] + near * (b[k] - a[k]);
@@ -75,32 +73,6 @@ static void put_vertex (const patch *c, pg_front *f, const double *x, unsigned c
     f->offset[i] = c->offset, f->grown[i] = 0, f->meets[i] = meets;
 }
 
-static pg_status to_line (patch *c, const double *x)
-{
-    pg_status status = PG_OK;
-    PG_TRY (surfaces_reserve (c->w, c->w->cracks.n, c->w->nvertex + 1));
-    PG_GROW (c->line, c->line_capacity, c->nline + 1);
-    c->line[c->nline++] = surfaces_put_vertex (c->w, x);
-done:
-    return status;
-}
-
-/* The line a spacing further than the end of a front, along the edge there. */
-static pg_status beyond_end (patch *c, const double *end, const double *beside)
-{
-    pg_status status = PG_OK;
-    double e[3], out[3];
-    for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
-    if (!pg_unit3 (e)) return PG_OK;
-    double a = pg_problem_way_out (c->p, end, e, pg_problem_spacing_at (c->p, end));
-    for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];
-    a += space_beyond (c->p, out, e);
-    for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];
-    PG_TRY (to_line (c, out));
-done:
-    return status;
-}
-
 /* A run of m vertices inside from number `first` on (m = n: all of them, a loop). */
 static pg_status add_front (patch *c, size_t first, size_t m)
 {
@@ -112,12 +84,12 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
     for (size_t k = 0; k < m; k++) {                   /* a first vertex next to the end is left out */
         const double *x = c->x + 3 * ((first + k) % n);
-        if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_problem_spacing_at (c->p, x))
+        if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_problem_spacing_at (c->s.p, x))
             put_vertex (c, &f, x, PG_MEETS_NOTHING);
     }
     if (!f.closed) {
         leave (c, (first + m - 1) % n, (first + m) % n, place);
-        if (f.n > 2 && pg_distance3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_problem_spacing_at (c->p,
+        if (f.n > 2 && pg_distance3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_problem_spacing_at (c->s.p,
                                                                                                       place))
             f.n--;
         put_vertex (c, &f, place, PG_MEETS_SURFACE);
@@ -125,18 +97,12 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     front_frames (&f);
     PG_ALLOC (cut, 3 * f.n);
     for (size_t i = 0; i < 3 * f.n; i++) cut[i] = f.x[i] - c->offset * f.ahead[i];
-    PG_TRY (front_resample (&f, c->p, &cut));
+    PG_TRY (front_resample (&f, c->s.p, &cut));
     front_frames (&f);
-    size_t begin = c->nline, last = 3 * (f.n - 1);
-    if (!f.closed) PG_TRY (beyond_end (c, cut, cut + 3));
-    for (size_t i = 0; i < f.n; i++) PG_TRY (to_line (c, cut + 3*i));
-    if (!f.closed) PG_TRY (beyond_end (c, cut + last, cut + last - 3));
-    f.nrim = c->nline - begin;
-    PG_GROW (f.rim, f.rim_capacity, f.nrim);
-    memcpy (f.rim, c->line + begin, f.nrim * sizeof *f.rim);
-    PG_TRY (surfaces_reserve_fronts (c->w, c->w->nfront + 1));
-    f.id = f.of = surfaces_next_id (c->w);
-    c->w->front[c->w->nfront++] = f;
+    PG_TRY (stride_lay (&c->s, &f, cut, 0, !f.closed, !f.closed));
+    PG_TRY (surfaces_reserve_fronts (c->s.w, c->s.w->nfront + 1));
+    f.id = f.of = surfaces_next_id (c->s.w);
+    c->s.w->front[c->s.w->nfront++] = f;
     f = (pg_front) { 0 };
 done:
     pg_front_clear (&f);
@@ -158,26 +124,11 @@ static pg_status add_fronts (patch *c)
         size_t i = (begin + k) % n, m = 0;
         while (k + m < n && c->in[(i + m) % n]) m++;
         if (m) PG_TRY (add_front (c, i, m));
-        else PG_TRY (to_line (c, c->x + 3*i));
+        else PG_TRY (stride_to_line (&c->s, c->x + 3*i, c->normal));
         k += m ? m : 1;
     }
 done:
     return status;
-}
-
-/* Area of a triangle inside the body: strips across, weighed by their length. */
-static double area_inside (const patch *c, const double *a, const double *b)
-{
-    enum { PLACES = 12 };
-    double in = 0, all = 0;
-    for (int q = 0; q < PLACES * PLACES; q++) {
-        double r = (0.5 + q / PLACES) / PLACES, t = (0.5 + q % PLACES) / PLACES, x[3];
-        for (int k = 0; k < 3; k++)
-            x[k] = c->middle[k] + r * ((1 - t) * (a[k] - c->middle[k]) + t * (b[k] - c->middle[k]));
-        all += r;
-        if (pg_problem_has_body (c->p, x)) in += r;
-    }
-    return triangle_area3 (c->middle, a, b) * in / all;
 }
 
 pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, const double *x,
@@ -185,26 +136,26 @@ pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, cons
 {
     pg_status status = PG_OK;
     pg_crack_surfaces *fresh = NULL;
-    double *side = NULL;
-    patch c = { .p = p, .normal = normal };
+    patch c = { .s = { .p = p }, .normal = normal };
     if (!state->surfaces) PG_FAIL (PG_E_USAGE, "surfaces begin in space only, where cracks grow");
     if (n < 3) PG_FAIL (PG_E_USAGE, "a crack cannot begin with %zu vertices", n);
     PG_TRY (surfaces_begin (&fresh, state));
-    c.w = fresh;
+    c.s.w = fresh;
     PG_TRY (read (&c, n, x));
     size_t fronts = fresh->nfront;
     PG_TRY (add_fronts (&c));
     if (fresh->nfront == fronts) PG_FAIL (PG_E_USAGE, "a crack cannot begin outside of the body");
     PG_TRY (surfaces_reserve (fresh, fresh->cracks.n, fresh->nvertex + 1));
     size_t middle = surfaces_put_vertex (fresh, c.middle);
-    PG_ALLOC (side, 3 * c.nline);
-    for (size_t i = 0; i < 3 * c.nline; i++) side[i] = normal[i % 3];
-    surface_line apex = { 1, &middle, normal, 0 }, outline = { c.nline, c.line, side, 1 };
+    surface_line apex = { 1, &middle, normal, 0 }, outline = { c.s.nline, c.s.line, c.s.side, 1 };
     PG_TRY (surfaces_zip (fresh, p, &apex, &outline, fresh->front[fronts].id));
-    for (size_t i = 0; i < n; i++) fresh->area += area_inside (&c, c.x + 3*i, c.x + 3 * ((i + 1) % n));
+    for (size_t i = 0; i < n; i++) {
+        const double *u = c.x + 3*i, *v = c.x + 3 * ((i + 1) % n);
+        fresh->area += pg_problem_area_inside (p, c.middle, u, v, triangle_area3 (c.middle, u, v));
+    }
     PG_TRY (surfaces_finish (&fresh, state, p, cut));
 done:
     pg_crack_surfaces_free (&fresh);
-    pg_free (c.x), pg_free (c.in), pg_free (c.line), pg_free (side);
+    pg_free (c.x), pg_free (c.in), pg_free (c.s.line), pg_free (c.s.side);
     return status;
 }

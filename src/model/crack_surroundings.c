@@ -172,8 +172,3 @@ double pg_path_room (const pg_problem *p, const pg_state *s, size_t tip, const d
 {
     return nearest_about (p, s, tip, x, limit, 1).distance;
 }
-
-double pg_tip_room (const pg_problem *p, const pg_state *s, size_t tip, double limit)
-{
-    return pg_tip_nearest (p, s, tip, limit, NULL, NULL);
-}

@@ -103,37 +103,22 @@ static double end_between (const outline *o, double in, double out, unsigned cha
 
 /* ---- lines: parts of outlines, as many places close to each other -------------------------------------- */
 typedef struct {
-    size_t n, capacity;
-    double *x, *normal, *offset;                       /* n x 3, n x 3, n; m */
-    int closed, used;
+    pg_front f;                                        /* places, normals, offsets; closed */
+    int used;
     size_t parts;                                      /* of a loop: how many vertices are a multiple of it */
     unsigned char first, last;                         /* what the ends meet */
 } line;
 
-static pg_status put (line *l, const double *x, const double *normal, double offset)
+static pg_status put (pg_front *f, const double *x, const double *normal, double offset)
 {
     pg_status status = PG_OK;
-    if (l->n == l->capacity) {
-        size_t most = 2 * l->n + 64;
-        double *more = pg_resize (l->x, 3 * most, sizeof *more);
-        if (more) l->x = more;
-        double *also = more ? pg_resize (l->normal, 3 * most, sizeof *also) : NULL;
-        if (also) l->normal = also;
-        double *last = also ? pg_resize (l->offset, most, sizeof *last) : NULL;
-        if (!last) PG_FAIL (PG_E_MEMORY, "no memory for a front of %zu places", most);
-        l->offset = last, l->capacity = most;
-    }
-    memcpy (l->x + 3 * l->n, x, 3 * sizeof *x);
-    memcpy (l->normal + 3 * l->n, normal, 3 * sizeof *x);
-    l->offset[l->n++] = offset;
+    PG_TRY (pg_front_reserve (f, f->n + 1));
+    memcpy (f->x + 3 * f->n, x, 3 * sizeof *x);
+    memcpy (f->normal + 3 * f->n, normal, 3 * sizeof *x);
+    f->offset[f->n] = offset, f->grown[f->n] = 0, f->meets[f->n] = PG_MEETS_NOTHING;
+    f->n++;
 done:
     return status;
-}
-
-static void clear (line *l)
-{
-    pg_free (l->x), pg_free (l->normal), pg_free (l->offset);
-    memset (l, 0, sizeof *l);
 }
 
 /* Where the vertices of a disc begin whose rim is a front all around. */
@@ -162,29 +147,29 @@ static pg_status draw (line *l, const outline *o, double s, double length, const
     const pg_crack *c = o->crack;
     double x[3], e[3], h = o->p->cloud.h;
     size_t n = FINER * (size_t) fmax (1, round (length * o->length / h)), edge;
-    if (l->closed && c->kind == PG_CRACK_DISC) n = FINER * disc_parts (o, &l->parts);
+    if (l->f.closed && c->kind == PG_CRACK_DISC) n = FINER * disc_parts (o, &l->parts);
     if (c->kind == PG_CRACK_DISC) {
-        for (size_t i = 0; i + l->closed <= n; i++) {
+        for (size_t i = 0; i + l->f.closed <= n; i++) {
             outline_at (o, s + length * (double) i / (double) n, x, e);
-            PG_TRY (put (l, x, c->normal, retreat ? retreat[0] : 0));
+            PG_TRY (put (&l->f, x, c->normal, retreat ? retreat[0] : 0));
         }
         goto done;
     }
     edge = outline_at (o, s, x, e);
-    if (!l->closed) PG_TRY (put (l, x, c->normal, retreat ? retreat[edge] : 0));
+    if (!l->f.closed) PG_TRY (put (&l->f, x, c->normal, retreat ? retreat[edge] : 0));
     /* vertices with s < s_i < s + length, twice around as the part may pass the first */
     for (size_t round = 0, m = c->nvertex; round < 2 * m; round++) {
         double behind = 0;                             /* way back from the end of the list to vertex i */
         size_t i = m - 1 - round % m;
         for (size_t j = i; j < m; j++) behind += edge_length (c, j) / o->length;
         double at = behind + (double) (round / m), tiny = 1e-9 * h / o->length;
-        if (at < s + tiny || at > s + length + (l->closed ? tiny : -tiny)) continue;
+        if (at < s + tiny || at > s + length + (l->f.closed ? tiny : -tiny)) continue;
         size_t next = (i + m - 1) % m;                 /* the edge that begins here, against the list */
         double offset = retreat ? fmax (retreat[i], retreat[next]) : 0;
-        PG_TRY (put (l, c->vertex + 3*i, c->normal, offset));
+        PG_TRY (put (&l->f, c->vertex + 3*i, c->normal, offset));
     }
     edge = outline_at (o, s + length, x, e);
-    if (!l->closed) PG_TRY (put (l, x, c->normal, retreat ? retreat[edge] : 0));
+    if (!l->f.closed) PG_TRY (put (&l->f, x, c->normal, retreat ? retreat[edge] : 0));
 done:
     return status;
 }
@@ -197,8 +182,7 @@ static pg_status add_line (lines *all, const outline *o, double s, double length
     pg_status status = PG_OK;
     PG_GROW (all->line, all->capacity, all->n + 1);
     line *l = &all->line[all->n++];
-    memset (l, 0, sizeof *l);
-    l->first = first, l->last = last, l->closed = closed, l->parts = 1;
+    *l = (line) { .f = { .closed = closed }, .first = first, .last = last, .parts = 1 };
     PG_TRY (draw (l, o, s, length, retreat));
 done:
     return status;
@@ -238,15 +222,16 @@ done:
 /* Reverses a line, with its ends and normals: its crack as seen from the other side. */
 static void reverse (line *l)
 {
-    for (size_t i = 0, j = l->n - 1; i < j; i++, j--) {
+    pg_front *f = &l->f;
+    for (size_t i = 0, j = f->n - 1; i < j; i++, j--) {
         double spare;
         for (size_t k = 0; k < 3; k++) {
-            spare = l->x[3*i + k], l->x[3*i + k] = l->x[3*j + k], l->x[3*j + k] = spare;
-            spare = l->normal[3*i + k], l->normal[3*i + k] = l->normal[3*j + k], l->normal[3*j + k] = spare;
+            spare = f->x[3*i + k], f->x[3*i + k] = f->x[3*j + k], f->x[3*j + k] = spare;
+            spare = f->normal[3*i + k], f->normal[3*i + k] = f->normal[3*j + k], f->normal[3*j + k] = spare;
         }
-        spare = l->offset[i], l->offset[i] = l->offset[j], l->offset[j] = spare;
+        spare = f->offset[i], f->offset[i] = f->offset[j], f->offset[j] = spare;
     }
-    for (size_t i = 0; i < 3 * l->n; i++) l->normal[i] = -l->normal[i];
+    for (size_t i = 0; i < 3 * f->n; i++) f->normal[i] = -f->normal[i];
     unsigned char end = l->first;
     l->first = l->last, l->last = end;
 }
@@ -255,7 +240,8 @@ static void reverse (line *l)
 static pg_status append (line *a, const line *b)
 {
     pg_status status = PG_OK;
-    for (size_t i = 1; i < b->n; i++) PG_TRY (put (a, b->x + 3*i, b->normal + 3*i, b->offset[i]));
+    for (size_t i = 1; i < b->f.n; i++)
+        PG_TRY (put (&a->f, b->f.x + 3*i, b->f.normal + 3*i, b->f.offset[i]));
     a->last = b->last;
 done:
     return status;
@@ -267,18 +253,19 @@ static pg_status join (lines *all, double near)
     pg_status status = PG_OK;
     for (size_t i = 0; i < all->n; i++) {
         line *a = &all->line[i];
-        for (size_t j = 0; !a->used && !a->closed && j < all->n; j++) {
+        for (size_t j = 0; !a->used && !a->f.closed && j < all->n; j++) {
             line *b = &all->line[j];
-            if (b == a || b->used || b->closed || a->last != PG_MEETS_CRACK) continue;
-            const double *end = a->x + 3 * (a->n - 1);
-            if (b->last == PG_MEETS_CRACK && pg_distance3 (end, b->x + 3 * (b->n - 1)) < near) reverse (b);
-            if (b->first != PG_MEETS_CRACK || !(pg_distance3 (end, b->x) < near)) continue;
+            if (b == a || b->used || b->f.closed || a->last != PG_MEETS_CRACK) continue;
+            const double *end = a->f.x + 3 * (a->f.n - 1);
+            if (b->last == PG_MEETS_CRACK && pg_distance3 (end, b->f.x + 3 * (b->f.n - 1)) < near)
+                reverse (b);
+            if (b->first != PG_MEETS_CRACK || !(pg_distance3 (end, b->f.x) < near)) continue;
             PG_TRY (append (a, b));
             b->used = 1, j = (size_t) -1;              /* look again from the new end */
         }
-        if (!a->used && !a->closed && a->n > 3 && a->first == PG_MEETS_CRACK && a->last == PG_MEETS_CRACK
-            && pg_distance3 (a->x, a->x + 3 * (a->n - 1)) < near)
-            a->closed = 1, a->n--;
+        if (!a->used && !a->f.closed && a->f.n > 3 && a->first == PG_MEETS_CRACK && a->last == PG_MEETS_CRACK
+            && pg_distance3 (a->f.x, a->f.x + 3 * (a->f.n - 1)) < near)
+            a->f.closed = 1, a->f.n--;
     }
 done:
     return status;
@@ -286,10 +273,10 @@ done:
 
 /* ---- vertices ------------------------------------------------------------------------------------------ */
 /* Place i of a line, a loop going round. */
-static const double *at (const line *l, size_t i) { return l->x + 3 * (i % l->n); }
+static const double *at (const pg_front *l, size_t i) { return l->x + 3 * (i % l->n); }
 
 /* Does the line turn sharply at place i? Ends of lines count. */
-static int is_corner (const line *l, size_t i)
+static int is_corner (const pg_front *l, size_t i)
 {
     double u[3], v[3];
     if (!l->closed && (i == 0 || i + 1 >= l->n)) return 1;
@@ -299,27 +286,20 @@ static int is_corner (const line *l, size_t i)
     return pg_dot3 (u, v) < cos (corner);
 }
 
-static pg_status put_vertex (pg_front *f, const line *l, size_t i, double share)
+static pg_status put_vertex (pg_front *f, const pg_front *l, size_t i, double share)
 {
-    pg_status status = PG_OK;
     const double *a = at (l, i), *b = at (l, i + 1), *m = l->normal + 3 * (i % l->n),
                  *n = l->normal + 3 * ((i + 1) % l->n);
-    PG_TRY (pg_front_reserve (f, f->n + 1));
-    for (size_t k = 0; k < 3; k++) {
-        f->x[3 * f->n + k] = a[k] + share * (b[k] - a[k]);
-        f->normal[3 * f->n + k] = m[k] + share * (n[k] - m[k]);
-    }
-    pg_unit3 (f->normal + 3 * f->n);
-    f->offset[f->n] = (1 - share) * l->offset[i % l->n] + share * l->offset[(i + 1) % l->n];
-    f->grown[f->n] = 0, f->meets[f->n] = PG_MEETS_NOTHING;
-    f->n++;
-done:
-    return status;
+    double x[3], normal[3];
+    for (size_t k = 0; k < 3; k++)
+        x[k] = a[k] + share * (b[k] - a[k]), normal[k] = m[k] + share * (n[k] - m[k]);
+    pg_unit3 (normal);
+    return put (f, x, normal, (1 - share) * l->offset[i % l->n] + share * l->offset[(i + 1) % l->n]);
 }
 
 /* Vertices of the places from .. to of a line, about a local spacing apart, the last left out; parts: their
  * number is a multiple of this. */
-static pg_status divide (pg_front *f, const line *l, const pg_problem *p, size_t from, size_t to,
+static pg_status divide (pg_front *f, const pg_front *l, const pg_problem *p, size_t from, size_t to,
                          size_t parts)
 {
     pg_status status = PG_OK;
@@ -353,19 +333,20 @@ static void frame (pg_front *f)
         double t[3], u[3], v[3], *n = f->normal + 3*i, *e = f->ahead + 3*i;
         for (size_t k = 0; k < 3; k++)
             u[k] = f->x[3*i + k] - f->x[3*low + k], v[k] = f->x[3*high + k] - f->x[3*i + k];
-        pg_unit3 (u), pg_unit3 (v);                            /* at corners: half the turn */
+        pg_unit3 (u), pg_unit3 (v);                    /* at corners: half the turn */
         for (int k = 0; k < 3; k++) t[k] = u[k] + v[k];
         pg_cross3 (n, t, e);
         pg_unit3 (e);
     }
 }
 
-static pg_status make_front (pg_front *f, const line *l, const pg_problem *p)
+static pg_status make_front (pg_front *f, const line *from, const pg_problem *p)
 {
     pg_status status = PG_OK;
+    const pg_front *l = &from->f;
     size_t first = 0, end = l->closed ? l->n : l->n - 1, parts = 1;
     while (l->closed && first < l->n && !is_corner (l, first)) first++;
-    if (first == l->n) first = 0, parts = l->parts;    /* a loop without corners */
+    if (first == l->n) first = 0, parts = from->parts; /* a loop without corners */
     for (size_t i = first, next; i < first + end; i = next) {
         next = i + 1;
         while (next < first + end && !is_corner (l, next % l->n)) next++;
@@ -373,7 +354,7 @@ static pg_status make_front (pg_front *f, const line *l, const pg_problem *p)
     }
     if (!l->closed) {
         PG_TRY (put_vertex (f, l, l->n - 2, 1));
-        f->meets[0] = l->first, f->meets[f->n - 1] = l->last;
+        f->meets[0] = from->first, f->meets[f->n - 1] = from->last;
     }
     f->closed = l->closed, f->open = 1;
     frame (f);
@@ -398,7 +379,7 @@ pg_status pg_fronts_find (pg_problem *p, double *const *retreat)
         PG_TRY (make_front (f, &all.line[i], p));
     }
 done:
-    for (size_t i = 0; i < all.n; i++) clear (&all.line[i]);
+    for (size_t i = 0; i < all.n; i++) pg_front_clear (&all.line[i].f);
     pg_free (all.line);
     return status;
 }

@@ -47,7 +47,8 @@ pg_status pg_fronts_find (pg_problem *problem, double *const *retreat);
 /* Where the body is (body_search.c): for a body in the plane, or one with cracks. */
 pg_status pg_body_search_create (pg_problem *problem);
 void      pg_body_search_free   (pg_problem *problem);
-/* crack_paths_memory.c: room for n pieces of cracks in all. */
+/* crack_paths_memory.c: do two places lie at one? Room for n pieces of cracks in all. */
+int       pg_crack_paths_same (const pg_crack_paths *paths, const double *a, const double *b);
 pg_status pg_crack_paths_reserve (pg_crack_paths *paths, size_t n);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot
@@ -60,6 +61,12 @@ const char *pg_methods_of_points (const pg_problem *problem, char *out, size_t s
 const char *pg_methods_with_rotations (const pg_problem *problem, char *out, size_t size);
 /* Distance from x in direction e (unit) to the first place without body, at most `limit`, m. */
 double    pg_problem_way_out (const pg_problem *problem, const double *x, const double *e, double limit);
+/* How far a crack that ends at x, going in direction e, cuts beyond: on the surface as far as points may lie
+ * outside of it, but not into body that follows; elsewhere and along the surface not at all. */
+double    pg_problem_beyond (const pg_problem *problem, const double *x, const double *e);
+/* What of the area (m^2) of the triangle o u v in space lies inside the body. */
+double    pg_problem_area_inside (const pg_problem *problem, const double *o, const double *u,
+                                  const double *v, double area);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */

@@ -4,6 +4,7 @@
  * a share of the spacing. So it cuts only what crosses it some way behind its tips (in space: its fronts). An
  * end is no tip where the body ends, or where the crack meets another. */
 #include "model.h"
+#include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -121,32 +122,20 @@ static double length_inside (const surroundings *s, const double *a, const doubl
  * those of a polygon that is not convex cancel in the sum over i = 1 .. nvertex - 2. */
 static double triangle_area (const pg_crack *c, size_t i)
 {
-    const double *o = c->vertex, *u = o + 3*i, *v = u + 3;
-    double area = 0;
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        area += 0.5 * c->normal[k] * ((u[m] - o[m]) * (v[n] - o[n]) - (u[n] - o[n]) * (v[m] - o[m]));
-    }
-    return area;
+    double u[3], v[3], n[3];
+    pg_shift3 (c->vertex + 3*i, c->vertex, -1, u), pg_shift3 (c->vertex + 3*i + 3, c->vertex, -1, v);
+    pg_cross3 (u, v, n);
+    return 0.5 * pg_dot3 (c->normal, n);
 }
 
 /* Area of a polygon inside the body, by triangles that one vertex has with the edges; those of a polygon that
  * is not convex cancel. */
 static double area_inside (const surroundings *s, const pg_crack *c)
 {
-    enum { PLACES = 12 };
+    const double *x = c->vertex;
     double area = 0;
-    for (size_t i = 1; i + 1 < c->nvertex; i++) {
-        const double *o = c->vertex, *u = o + 3*i, *v = u + 3;
-        double in = 0, all = 0;
-        for (int a = 0; a < PLACES * PLACES; a++) {    /* strips across, weighed by their length */
-            double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
-            for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
-            all += r;
-            if (pg_problem_has_body (s->p, x)) in += r;
-        }
-        area += triangle_area (c, i) * in / all;
-    }
+    for (size_t i = 1; i + 1 < c->nvertex; i++)
+        area += pg_problem_area_inside (s->p, x, x + 3*i, x + 3*i + 3, triangle_area (c, i));
     return area;
 }
 
@@ -194,13 +183,10 @@ static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, doubl
 /* The unit vector in the plane of a polygon that points outward across its edge from a to b. */
 static void outward (const pg_crack *c, const double *a, const double *b, double *out)
 {
-    double length = 0;
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        out[k] = (b[m] - a[m]) * c->normal[n] - (b[n] - a[n]) * c->normal[m];
-        length = hypot (length, out[k]);
-    }
-    for (int k = 0; k < 3; k++) out[k] /= length;
+    double along[3];
+    pg_shift3 (b, a, -1, along);
+    pg_cross3 (along, c->normal, out);
+    pg_unit3 (out);
 }
 
 /* An edge is a front where the body goes on ahead of some of it. */
@@ -211,9 +197,8 @@ static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, doubl
     for (size_t i = 1; i + 1 < c->nvertex; i++) area += triangle_area (c, i);
     for (size_t i = 0; i < c->nvertex; i++) {
         const double *a = c->vertex + 3*i, *b = c->vertex + 3*((i + 1) % c->nvertex);
-        double ahead[3], length = 0, x[3];
+        double ahead[3], length = pg_distance3 (a, b), x[3];
         outward (c, a, b, ahead);
-        for (int m = 0; m < 3; m++) length = hypot (length, b[m] - a[m]);
         size_t n = (size_t) fmin (MOST, 3 + 2 * length / s->p->cloud.h);
         out[i] = 0;
         for (size_t q = 0; q < n; q++) {

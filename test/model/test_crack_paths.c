@@ -202,13 +202,13 @@ static void what_lies_around_a_tip (void **state)
     check_relative (pg_tip_nearest (g.p, g.s, 2, 1, place, &what), 0.1, 1e-9);
     assert_int_equal (what, PG_MEETS_SURFACE);
     check_absolute (place[0], 0.63, 1e-5), check_absolute (place[1], 0, 1e-9);
-    check_relative (pg_tip_room (g.p, g.s, 0, 1), 0.22, 1e-9);
-    check_relative (pg_tip_room (g.p, g.s, 0, 0.05), 0.05, 0);
+    check_relative (pg_tip_nearest (g.p, g.s, 0, 1, NULL, NULL), 0.22, 1e-9);
+    check_relative (pg_tip_nearest (g.p, g.s, 0, 0.05, NULL, NULL), 0.05, 0);
     end (&g);
     g = begin (CRACKED (INSIDE, ""));                  /* the path's own other tip */
-    check_relative (pg_tip_room (g.p, g.s, 1, 1), 0.22, 1e-9);
+    check_relative (pg_tip_nearest (g.p, g.s, 1, 1, NULL, NULL), 0.22, 1e-9);
     grow (&g, 1, 0.36, 0.26, 0);                       /* folded back: not what a run does */
-    check_relative (pg_tip_room (g.p, g.s, 1, 1), 0.05, 1e-9);
+    check_relative (pg_tip_nearest (g.p, g.s, 1, 1, NULL, NULL), 0.05, 1e-9);
     end (&g);
 }
 
