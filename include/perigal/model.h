@@ -253,6 +253,17 @@ const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *
 /* Approximation and horizon that the scene asks of a force, at this spacing, m. PG_E_SCENE. */
 pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing);
 
+/* Where a body is, and how fine its points are there: what the geometry of cracks asks for. Borrowed. */
+typedef struct {
+    int dim;
+    const pg_cloud *cloud;  const pg_body *body;
+    const pg_between *between;                         /* what parts the points; NULL: nothing does */
+    const struct pg_body_search *search;               /* NULL: there is none (body_search.c) */
+    /* Distance behind a tip from which its crack cuts, where the spacing is cloud->h, m; of a tip whose faces
+     * touch. */
+    double tip_offset, closed_tip_offset;
+} pg_ground;
+
 /* An end of a crack in the plane, from which it may grow. */
 typedef struct {
     long   id;                                         /* 1, 2, ... as they came into being; stays with it */
@@ -543,14 +554,15 @@ pg_status pg_tip_close   (pg_state *state, const pg_problem *problem, size_t tip
 void      pg_tip_draw_back (pg_state *state, const pg_problem *problem, size_t tip, double offset);
 /* The place `back` (m) behind a tip along its path, at most the path's other end, and the unit vector from
  * there to the tip (2 each). */
-void      pg_tip_chord    (const pg_state *state, size_t tip, double back, double *from, double *direction);
+void      pg_tip_chord    (const pg_crack_paths *paths, size_t tip, double back, double *from,
+                           double *direction);
 /* Distance along the path behind a tip to the first turn by more than `angle` (rad), m; INFINITY: none. */
-double    pg_tip_straight (const pg_state *state, size_t tip, double angle);
+double    pg_tip_straight (const pg_crack_paths *paths, size_t tip, double angle);
 /* The vertices of the path of a tip, from the tip to its other end, without those at which it runs straight
  * on (*x: *n x 2, m; the caller frees). */
-pg_status pg_tip_vertices (const pg_state *state, size_t tip, size_t *n, double **x);
+pg_status pg_tip_vertices (const pg_crack_paths *paths, size_t tip, size_t *n, double **x);
 /* Length of the path behind a tip up to its other end, or `limit` if that is less, m. */
-double    pg_tip_behind   (const pg_state *state, size_t tip, double limit);
+double    pg_tip_behind   (const pg_crack_paths *paths, size_t tip, double limit);
 /* Points per spacing at which the faces of a crack are sampled, and the parts of equal length of so much of a
  * crack (m, at a local spacing h) in whose middle they lie. */
 #define PG_CRACK_POINTS 8
@@ -563,23 +575,24 @@ static inline size_t pg_crack_intervals (double length, double h)
  * integration, in the plane: shares of the way, ascending, 0 and 1 among them (the caller frees). */
 pg_status pg_crack_breaks (const pg_problem *problem, const double *a, const double *b, size_t *n,
                            double **share);
+pg_ground pg_problem_ground (const pg_problem *problem);
 /* Is there body at x? Points of a file have no surface: a place is in the body if a point is near. */
 int       pg_problem_has_body (const pg_problem *problem, const double *x);
 /* Local spacing at x: that of the nearest point, m. */
 double    pg_problem_spacing_at (const pg_problem *problem, const double *x);
 /* How far from a tip in a direction (unit vector) the body ends, or a crack lies across, m; *what says
  * which. At most `limit`. Gaps in a mesh of less than an eighth of the spacing may be missed. */
-double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t tip, const double *direction,
-                        double limit, int *what);
+double    pg_tip_ahead (const pg_ground *ground, const pg_crack_paths *paths, size_t tip,
+                        const double *direction, double limit, int *what);
 /* Distance from a tip to the nearest place of the surface, of another path, or of another open tip, m; at
  * most `limit`. place (2) and what may be NULL. */
-double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size_t tip, double limit,
+double    pg_tip_nearest (const pg_ground *ground, const pg_crack_paths *paths, size_t tip, double limit,
                           double *place, int *what);
 /* Distance from x (2, m) on a tip's path to surface, other path, branch or open tip, m, at most `limit`. */
-double    pg_path_room (const pg_problem *problem, const pg_state *state, size_t tip, const double *x,
+double    pg_path_room (const pg_ground *ground, const pg_crack_paths *paths, size_t tip, const double *x,
                         double limit);
 /* Is a piece passed on the way from the tip along its path to the other end? */
-int       pg_tip_passes (const pg_state *state, size_t tip, size_t piece);
+int       pg_tip_passes (const pg_crack_paths *paths, size_t tip, size_t piece);
 
 /* The fronts that exist in a state (NULL: at the start). */
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n);

@@ -94,7 +94,7 @@ static pg_status find_kink (turned *out, const pg_problem *p, const pg_state *st
     double e[2], f[2], extent = 0, best = TIP_LEAST * h;
     int turns = 0;
     *any = 0;
-    PG_TRY (pg_tip_vertices (state, tip, &out->n, &out->x));
+    PG_TRY (pg_tip_vertices (state->paths, tip, &out->n, &out->x));
     for (size_t j = 1; j + 1 < out->n; j++) {
         const double *x = out->x + 2*j;
         extent = 0;

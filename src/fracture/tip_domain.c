@@ -105,7 +105,9 @@ static void end_at_interfaces (pg_tip_field *out, const pg_problem *p, size_t he
 double tip_room_about (const pg_problem *p, const pg_state *state, size_t tip, const double *x, size_t node,
                        double limit)
 {
-    pg_tip_field at = { .x = { x[0], x[1] }, .room = pg_path_room (p, state, tip, x, limit), .load = -1 };
+    const pg_ground g = pg_problem_ground (p);
+    pg_tip_field at = { .x = { x[0], x[1] }, .load = -1,
+                        .room = pg_path_room (&g, state->paths, tip, x, limit) };
     end_at_loads (&at, p);
     end_at_interfaces (&at, p, node);
     return at.room;
@@ -114,6 +116,7 @@ double tip_room_about (const pg_problem *p, const pg_state *state, size_t tip, c
 pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip, size_t *node)
 {
     pg_status status = PG_OK;
+    const pg_ground g = pg_problem_ground (p);
     double from[2];
     memset (out, 0, sizeof *out);
     if (!state->paths || tip >= state->paths->ntip)
@@ -122,8 +125,8 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
     *node = tip_node_at (p, out->x);
     double h = out->h = pg_problem_spacing (p, PG_NODES, *node);
     int what;
-    pg_tip_chord (state, tip, CHORD * h, from, out->e);
-    out->room = pg_tip_nearest (p, state, tip, WIDE * h, NULL, &what), out->load = -1;
+    pg_tip_chord (state->paths, tip, CHORD * h, from, out->e);
+    out->room = pg_tip_nearest (&g, state->paths, tip, WIDE * h, NULL, &what), out->load = -1;
     out->limit = what == PG_MEETS_SURFACE ? PG_ROOM_SURFACE : what == PG_MEETS_CRACK ? PG_ROOM_CRACK
                                                                                      : PG_ROOM_FREE;
     end_at_loads (out, p);
@@ -131,7 +134,7 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
     double room = out->room;
     out->r1 = INNER * h;
     out->near = tip_is_ring (p, room, h) ? fmin (NEAR * h, room) : NAN;
-    out->wide = fmin (fmin (WIDE * h, room), fmax (NEAR * h, pg_tip_straight (state, tip, TURN)));
+    out->wide = fmin (fmin (WIDE * h, room), fmax (NEAR * h, pg_tip_straight (state->paths, tip, TURN)));
     if (isnan (out->near)) out->wide = NAN;
 done:
     return status;

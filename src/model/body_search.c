@@ -34,43 +34,43 @@ void pg_body_search_free (pg_problem *p)
 }
 
 /* The nearest point, -1: none was asked for when the search was made. */
-static long nearest_to (const pg_problem *p, const double *x)
+static long nearest_to (const pg_ground *p, const double *x)
 {
     return p->search && p->search->near ? pg_nearest_find (p->search->near, x, NULL, NULL) : -1;
 }
 
-double pg_problem_spacing_at (const pg_problem *p, const double *x)
+double pg_ground_spacing_at (const pg_ground *p, const double *x)
 {
-    long i = p->cloud.size ? nearest_to (p, x) : -1;
-    return i >= 0 ? p->cloud.size[i] : p->cloud.h;
+    long i = p->cloud->size ? nearest_to (p, x) : -1;
+    return i >= 0 ? p->cloud->size[i] : p->cloud->h;
 }
 
 /* Points of a file have no surface: a place beyond it has none nearer than those of a lattice lie at
  * most. */
-int pg_problem_has_body (const pg_problem *p, const double *x)
+int pg_ground_has_body (const pg_ground *p, const double *x)
 {
     double xi[3], d = 0;
-    if (p->body.n) return pg_body_inside (&p->body, x, 0);
+    if (p->body->n) return pg_body_inside (p->body, x, 0);
     if (p->search && p->search->locator)
         return pg_mesh_locator_find (p->search->locator, x, xi, NULL) >= 0;
     long i = nearest_to (p, x);
     for (int k = 0; i >= 0 && k < p->dim; k++)
-        d = hypot (d, p->cloud.x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
-    return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * pg_problem_spacing_at (p, x);
+        d = hypot (d, p->cloud->x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
+    return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * pg_ground_spacing_at (p, x);
 }
 
 /* Steps of a way in a spacing; halvings of the last one: 2^-44 of it is rounding. */
 enum { STEPS = 8, HALVINGS = 44 };
 
-static int body_at (const pg_problem *p, const double *x, const double *e, double r)
+static int body_at (const pg_ground *p, const double *x, const double *e, double r)
 {
     double place[3] = { 0 };
     for (int k = 0; k < p->dim; k++) place[k] = x[k] + r * e[k];
-    return pg_problem_has_body (p, place);
+    return pg_ground_has_body (p, place);
 }
 
 /* Between a place with body and one without it. */
-static double halve (const pg_problem *p, const double *x, const double *e, double near, double far)
+static double halve (const pg_ground *p, const double *x, const double *e, double near, double far)
 {
     for (int k = 0; k < HALVINGS; k++) {
         double middle = 0.5 * (near + far);
@@ -81,12 +81,12 @@ static double halve (const pg_problem *p, const double *x, const double *e, doub
 }
 
 /* Of shapes all that they leave empty is known, slots that are narrower than any step too. 0: not known. */
-static int way_in_shapes (const pg_problem *p, const double *x, const double *e, double limit, double first,
+static int way_in_shapes (const pg_ground *p, const double *x, const double *e, double limit, double first,
                           double *way)
 {
     double end[3] = { 0 }, gap[2], after = 0;            /* in parts of the limit */
     int found;
-    if (!p->body.n || !p->between) return 0;
+    if (!p->body->n || !p->between) return 0;
     for (int k = 0; k < p->dim; k++) end[k] = x[k] + limit * e[k];
     *way = limit;
     for (; (found = pg_between_outside (p->between, x, end, after, gap)) > 0; after = gap[1]) {
@@ -100,9 +100,9 @@ static int way_in_shapes (const pg_problem *p, const double *x, const double *e,
 
 /* A place within rounding of the surface has some body to one side only, so the first step counts as a
  * whole. */
-double pg_problem_way_out (const pg_problem *p, const double *x, const double *e, double limit)
+double pg_ground_way_out (const pg_ground *p, const double *x, const double *e, double limit)
 {
-    double step = pg_problem_spacing_at (p, x) / STEPS, near = 0, far, way;
+    double step = pg_ground_spacing_at (p, x) / STEPS, near = 0, far, way;
     if (way_in_shapes (p, x, e, limit, fmin (step, limit), &way)) return way;
     for (long i = 1; near < limit; i++, near = far) {
         far = fmin ((double) i * step, limit);
@@ -114,14 +114,14 @@ double pg_problem_way_out (const pg_problem *p, const double *x, const double *e
 /* Cells that a lattice rim may lie outside the surface, spacings. In space what lies on the surface, to
  * rounding, is body. */
 #define BEYOND_SURFACE 1.0
-double pg_problem_beyond (const pg_problem *p, const double *x, const double *e)
+double pg_ground_beyond (const pg_ground *p, const double *x, const double *e)
 {
-    double h = pg_problem_spacing_at (p, x), slack = p->dim == 3 ? pg_cloud_same (&p->cloud) : 0;
+    double h = pg_ground_spacing_at (p, x), slack = p->dim == 3 ? pg_cloud_same (p->cloud) : 0;
     int free = 0;
     for (int part = 1; part <= STEPS; part++) {
         double place[3] = { 0 };
         for (int k = 0; k < p->dim; k++) place[k] = x[k] + BEYOND_SURFACE * h * part / STEPS * e[k];
-        int body = p->body.n ? pg_body_inside (&p->body, place, slack) : pg_problem_has_body (p, place);
+        int body = p->body->n ? pg_body_inside (p->body, place, slack) : pg_ground_has_body (p, place);
         if (body && free) return BEYOND_SURFACE * h * (part - 1) / STEPS;
         free |= !body;
     }
@@ -129,7 +129,7 @@ double pg_problem_beyond (const pg_problem *p, const double *x, const double *e)
 }
 
 /* Strips across, weighed by their length. */
-double pg_problem_area_inside (const pg_problem *p, const double *o, const double *u, const double *v,
+double pg_ground_area_inside (const pg_ground *p, const double *o, const double *u, const double *v,
                                double area)
 {
     enum { PLACES = 12 };
@@ -138,7 +138,27 @@ double pg_problem_area_inside (const pg_problem *p, const double *o, const doubl
         double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
         for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
         all += r;
-        if (pg_problem_has_body (p, x)) in += r;
+        if (pg_ground_has_body (p, x)) in += r;
     }
     return area * in / all;
+}
+
+/* ---- of a problem -------------------------------------------------------------------------------------- */
+pg_ground pg_problem_ground (const pg_problem *p)
+{
+    return (pg_ground) { .dim = p->dim, .cloud = &p->cloud, .body = &p->body, .between = p->between,
+                         .search = p->search, .tip_offset = p->tip_offset,
+                         .closed_tip_offset = p->closed_tip_offset };
+}
+
+int pg_problem_has_body (const pg_problem *p, const double *x)
+{
+    const pg_ground g = pg_problem_ground (p);
+    return pg_ground_has_body (&g, x);
+}
+
+double pg_problem_spacing_at (const pg_problem *p, const double *x)
+{
+    const pg_ground g = pg_problem_ground (p);
+    return pg_ground_spacing_at (&g, x);
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bonds that new pieces of cracks cut, facets in the plane and triangles in space. Only the new ones are
- * asked, through an index of their own (geometry/cloud/crack_index.c): first the box of all of them,
- * then for each
- * point the boxes near it, then its bonds. */
-#include "model.h"
+ * Cracks that grow in a state: their geometry changes on a copy (crack_paths.c, crack_surfaces.c), which
+ * takes its place when all has gone well, and the bonds that the new pieces cut are found, facets in the
+ * plane and triangles in space. Only the new ones are asked, through an index of their own
+ * (geometry/cloud/crack_index.c): first the box of all of them, then for each point the boxes near it, then
+ * its bonds. */
+#include "crack_surfaces.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -49,7 +50,8 @@ done:
     return status;
 }
 
-pg_status pg_bonds_cut_by (const pg_state *s, const pg_problem *p, pg_crack *piece, size_t n, pg_changes *cut)
+/* Adds to `cut` the live bonds that these n pieces of cracks cut; `cut` stays ascending. */
+static pg_status cut_by (const pg_state *s, const pg_problem *p, pg_crack *piece, size_t n, pg_changes *cut)
 {
     pg_status status = PG_OK;
     pg_cracks fresh = { .dim = p->dim, .crack = piece, .n = n };
@@ -76,4 +78,148 @@ pg_status pg_bonds_cut_by (const pg_state *s, const pg_problem *p, pg_crack *pie
 done:
     pg_cracks_clear_index (&fresh);
     return status;
+}
+
+/* ---- paths --------------------------------------------------------------------------------------------- */
+/* A copy with room for more pieces, of which those that change are marked. */
+typedef struct { pg_crack_paths *fresh; unsigned char *changed; pg_crack *piece; } change;
+
+static pg_status begin (change *c, const pg_state *s, size_t pieces)
+{
+    pg_status status = PG_OK;
+    if (!s->paths) PG_FAIL (PG_E_USAGE, "tips grow and cracks begin so in the plane only");
+    PG_ALLOC (c->fresh, 1);
+    c->fresh->cracks.dim = 2;
+    PG_TRY (pg_crack_paths_reserve (c->fresh, s->paths->cracks.n + pieces));
+    PG_GROW (c->fresh->tip, c->fresh->tip_capacity, s->paths->ntip + 2);
+    PG_TRY (pg_crack_paths_copy (c->fresh, s->paths));
+    PG_ALLOC (c->changed, s->paths->cracks.n + pieces);
+    PG_ALLOC (c->piece, s->paths->cracks.n + pieces);
+done:
+    return status;
+}
+
+/* Boxes, bonds; then the fresh paths are the state's. */
+static pg_status finish (change *c, pg_state *s, const pg_problem *p, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    size_t n = 0;
+    for (size_t k = 0; k < c->fresh->cracks.n; k++)
+        if (c->changed[k]) c->piece[n++] = c->fresh->cracks.crack[k];
+    PG_TRY (pg_cracks_index (&c->fresh->cracks));
+    PG_TRY (cut_by (s, p, c->piece, n, cut));
+    pg_crack_paths *old = s->paths;
+    s->paths = c->fresh, c->fresh = old;
+done:
+    return status;
+}
+
+static void end (change *c)
+{
+    pg_crack_paths_free (&c->fresh);
+    pg_free (c->changed), pg_free (c->piece);
+}
+
+pg_status pg_crack_grow (pg_state *s, const pg_problem *p, size_t tip, const double *to, int close,
+                         pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    const pg_ground g = pg_problem_ground (p);
+    change c = { 0 };
+    PG_TRY (begin (&c, s, 2 + (s->paths ? s->paths->ntip : 0)));   /* tips that end here are split, too */
+    PG_TRY (paths_grow (c.fresh, &g, tip, to, close, c.changed));
+    PG_TRY (finish (&c, s, p, cut));
+done:
+    end (&c);
+    return status;
+}
+
+pg_status pg_crack_start (pg_state *s, const pg_problem *p, const double *from, const double *to, int open,
+                          pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    const pg_ground g = pg_problem_ground (p);
+    change c = { 0 };
+    PG_TRY (begin (&c, s, 1));
+    PG_TRY (paths_start (c.fresh, &g, from, to, open, c.changed));
+    PG_TRY (finish (&c, s, p, cut));
+done:
+    end (&c);
+    return status;
+}
+
+pg_status pg_tip_close (pg_state *s, const pg_problem *p, size_t tip, pg_changes *cut)
+{
+    static const double nowhere[3] = { 0 };
+    int there = s->paths && tip < s->paths->ntip;
+    return pg_crack_grow (s, p, tip, there ? s->paths->tip[tip].x : nowhere, 1, cut);
+}
+
+void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offset)
+{
+    size_t dim = (size_t) p->dim;
+    if (!paths_draw_back (s->paths, tip, offset)) return;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_rows *rows = &p->rows[set];
+        unsigned char *alive = s->alive + p->first_bond[set];
+        for (size_t q = 0; q < rows->n; q++)
+            for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
+                if (!alive[e])
+                    alive[e] = !pg_cracks_cut (&s->paths->cracks, rows->x + q * dim,
+                                               p->cloud.x + (size_t) rows->family.node[e] * dim,
+                                               pg_cloud_same (&p->cloud));
+    }
+}
+
+/* ---- surfaces ------------------------------------------------------------------------------------------ */
+static pg_status copy_surfaces (pg_crack_surfaces **fresh, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    if (!state->surfaces)
+        PG_FAIL (PG_E_USAGE, "fronts advance and surfaces begin in space only, where cracks grow");
+    PG_ALLOC (*fresh, 1);
+    PG_TRY (pg_crack_surfaces_copy (*fresh, state->surfaces));
+done:
+    return status;
+}
+
+/* Its place in the state; only the new triangles cut anew. Frees what is left. */
+static pg_status take_surfaces (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p,
+                                pg_status changed, pg_changes *cut)
+{
+    pg_status status = changed;
+    if (status != PG_OK) goto done;
+    PG_TRY (pg_cracks_index (&(*fresh)->cracks));
+    size_t first = state->surfaces->cracks.n;
+    PG_TRY (cut_by (state, p, (*fresh)->cracks.crack + first, (*fresh)->cracks.n - first, cut));
+    pg_crack_surfaces *old = state->surfaces;
+    state->surfaces = *fresh, *fresh = old;
+done:
+    pg_crack_surfaces_free (fresh);
+    return status;
+}
+
+pg_status pg_front_advance (pg_state *state, const pg_problem *p, size_t front, const double *d,
+                            const double *theta, pg_changes *cut)
+{
+    const pg_ground g = pg_problem_ground (p);
+    pg_crack_surfaces *fresh = NULL;
+    pg_status status = copy_surfaces (&fresh, state);
+    if (status == PG_OK) status = surfaces_advance (fresh, &g, front, d, theta);
+    return take_surfaces (&fresh, state, p, status, cut);
+}
+
+pg_status pg_front_close (pg_state *state, const pg_problem *p, size_t front, pg_changes *cut)
+{
+    return pg_front_advance (state, p, front, NULL, NULL, cut);
+}
+
+pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, const double *x,
+                            const double *normal, pg_changes *cut)
+{
+    const pg_ground g = pg_problem_ground (p);
+    pg_crack_surfaces *fresh = NULL;
+    pg_status status = copy_surfaces (&fresh, state);
+    if (status == PG_OK) status = surfaces_start (fresh, &g, n, x, normal);
+    return take_surfaces (&fresh, state, p, status, cut);
 }

@@ -61,9 +61,8 @@ static int walk_on (walk *at)
     return 0;
 }
 
-void pg_tip_chord (const pg_state *state, size_t tip, double back, double *from, double *direction)
+void pg_tip_chord (const pg_crack_paths *w, size_t tip, double back, double *from, double *direction)
 {
-    const pg_crack_paths *w = state->paths;
     const pg_tip *t = &w->tip[tip];
     walk at = walk_from (w, t);
     size_t left = w->cracks.n;
@@ -86,9 +85,8 @@ static void heading (const walk *at, double *e)
     for (int k = 0; k < 2; k++) e[k] = (a[k] - b[k]) / at->length;
 }
 
-double pg_tip_straight (const pg_state *state, size_t tip, double angle)
+double pg_tip_straight (const pg_crack_paths *w, size_t tip, double angle)
 {
-    const pg_crack_paths *w = state->paths;
     walk at = walk_from (w, &w->tip[tip]);
     double passed = at.length, e[2], f[2];
     for (size_t left = w->cracks.n; left > 0; left--, passed += at.length) {
@@ -100,11 +98,10 @@ double pg_tip_straight (const pg_state *state, size_t tip, double angle)
     return INFINITY;
 }
 
-pg_status pg_tip_vertices (const pg_state *state, size_t tip, size_t *n, double **x)
+pg_status pg_tip_vertices (const pg_crack_paths *w, size_t tip, size_t *n, double **x)
 {
     static const double turn = 1e-6;                   /* rad: not a turn */
     pg_status status = PG_OK;
-    const pg_crack_paths *w = state->paths;
     walk at = walk_from (w, &w->tip[tip]);
     double e[2], f[2];
     *n = 0, *x = NULL;
@@ -122,9 +119,8 @@ done:
     return status;
 }
 
-int pg_tip_passes (const pg_state *state, size_t tip, size_t piece)
+int pg_tip_passes (const pg_crack_paths *w, size_t tip, size_t piece)
 {
-    const pg_crack_paths *w = state->paths;
     walk at = walk_from (w, &w->tip[tip]);
     for (size_t left = w->cracks.n; left > 0; left--) {
         if (at.piece == piece) return 1;
@@ -133,9 +129,8 @@ int pg_tip_passes (const pg_state *state, size_t tip, size_t piece)
     return 0;
 }
 
-double pg_tip_behind (const pg_state *state, size_t tip, double limit)
+double pg_tip_behind (const pg_crack_paths *w, size_t tip, double limit)
 {
-    const pg_crack_paths *w = state->paths;
     walk at = walk_from (w, &w->tip[tip]);
     double passed = at.length;
     for (size_t left = w->cracks.n; left > 0 && passed < limit && walk_on (&at); left--) passed += at.length;
@@ -144,7 +139,7 @@ double pg_tip_behind (const pg_state *state, size_t tip, double limit)
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */
 /* Appends a sided piece; there is room. */
-static size_t append (pg_crack_paths *w, const pg_problem *p, const double *from, const double *to,
+static size_t append (pg_crack_paths *w, const pg_ground *p, const double *from, const double *to,
                       size_t parent, long owner)
 {
     size_t k = w->cracks.n++;
@@ -152,7 +147,7 @@ static size_t append (pg_crack_paths *w, const pg_problem *p, const double *from
     double *store = w->store + 6*k;
     memset (c, 0, sizeof *c);
     *c = (pg_crack) { .kind = PG_CRACK_SEGMENT, .vertex = store, .nvertex = 2, .retreat = store + 4,
-                      .sided = 1, .width = PG_NO_LENGTH * pg_problem_spacing_at (p, to) };
+                      .sided = 1, .width = PG_NO_LENGTH * pg_ground_spacing_at (p, to) };
     memcpy (store, from, 2 * sizeof *store), memcpy (store + 2, to, 2 * sizeof *store);
     store[4] = store[5] = 0;
     pg_crack_orient (c);
@@ -161,7 +156,7 @@ static size_t append (pg_crack_paths *w, const pg_problem *p, const double *from
 }
 
 /* A crack of the scene begins to grow: what it has not cut becomes a piece of its own. */
-static void split_first (pg_crack_paths *w, const pg_problem *p, pg_tip *t)
+static void split_first (pg_crack_paths *w, const pg_ground *p, pg_tip *t)
 {
     pg_crack *c = &w->cracks.crack[t->segment];
     double length = length_of (w, t->segment), *end = c->vertex + 2 * t->end, at[2];
@@ -176,11 +171,11 @@ static void split_first (pg_crack_paths *w, const pg_problem *p, pg_tip *t)
 
 /* Of a path at its tip, m: scaled with the local spacing, and no more than a share of the path. slides: its
  * faces touch and slide. */
-static double offset_at (const pg_state *state, const pg_problem *p, size_t tip, int slides)
+static double offset_at (const pg_crack_paths *w, const pg_ground *p, size_t tip, int slides)
 {
     double o = (slides ? p->closed_tip_offset : p->tip_offset)
-               * pg_problem_spacing_at (p, state->paths->tip[tip].x) / p->cloud.h;
-    return fmin (o, OFFSET_OF_PATH * pg_tip_behind (state, tip, o / OFFSET_OF_PATH));
+               * pg_ground_spacing_at (p, w->tip[tip].x) / p->cloud->h;
+    return fmin (o, OFFSET_OF_PATH * pg_tip_behind (w, tip, o / OFFSET_OF_PATH));
 }
 
 /* Where the path of a tip cuts no bonds: up to `offset` behind it; negative: so far beyond it. Pieces up to
@@ -201,47 +196,8 @@ static void set_retreats (pg_crack_paths *w, const pg_tip *t, double offset, dou
 }
 
 /* ---- growing ------------------------------------------------------------------------------------------- */
-/* The change is made on a copy of the paths, with room for more pieces, which takes their place when all has
- * gone well. */
-typedef struct { pg_crack_paths *fresh; unsigned char *changed; pg_crack *piece; } change;
-
-static pg_status begin (change *c, const pg_state *s, size_t pieces)
-{
-    pg_status status = PG_OK;
-    PG_ALLOC (c->fresh, 1);
-    c->fresh->cracks.dim = 2;
-    PG_TRY (pg_crack_paths_reserve (c->fresh, s->paths->cracks.n + pieces));
-    PG_GROW (c->fresh->tip, c->fresh->tip_capacity, s->paths->ntip + 2);
-    PG_TRY (pg_crack_paths_copy (c->fresh, s->paths));
-    PG_ALLOC (c->changed, s->paths->cracks.n + pieces);
-    PG_ALLOC (c->piece, s->paths->cracks.n + pieces);
-done:
-    return status;
-}
-
-/* Boxes, bonds; then the fresh paths are the state's. */
-static pg_status finish (change *c, pg_state *s, const pg_problem *p, pg_changes *cut)
-{
-    pg_status status = PG_OK;
-    size_t n = 0;
-    for (size_t k = 0; k < c->fresh->cracks.n; k++)
-        if (c->changed[k]) c->piece[n++] = c->fresh->cracks.crack[k];
-    PG_TRY (pg_cracks_index (&c->fresh->cracks));
-    PG_TRY (pg_bonds_cut_by (s, p, c->piece, n, cut));
-    pg_crack_paths *old = s->paths;
-    s->paths = c->fresh, c->fresh = old;
-done:
-    return status;
-}
-
-static void end (change *c)
-{
-    pg_crack_paths_free (&c->fresh);
-    pg_free (c->changed), pg_free (c->piece);
-}
-
 /* Moves the tip to the end of a facet of its own. */
-static void move (pg_crack_paths *w, const pg_problem *p, pg_tip *t, const double *to, double length)
+static void move (pg_crack_paths *w, const pg_ground *p, pg_tip *t, const double *to, double length)
 {
     t->segment = t->end ? append (w, p, t->x, to, t->segment, t->id)
                         : append (w, p, to, t->x, t->segment, t->id);
@@ -250,18 +206,18 @@ static void move (pg_crack_paths *w, const pg_problem *p, pg_tip *t, const doubl
 }
 
 /* The path of tip `tip` cuts up to its end, and a little further so that rounding leaves nothing. */
-static void close_tip (pg_crack_paths *w, const pg_problem *p, size_t tip, unsigned char *changed)
+static void close_tip (pg_crack_paths *w, const pg_ground *p, size_t tip, unsigned char *changed)
 {
     pg_tip *t = &w->tip[tip];
     walk at = walk_from (w, t);
     double e[2], before = t->offset;
     heading (&at, e);
     t->open = 0, t->offset = 0;
-    set_retreats (w, t, -fmax (w->nothing, pg_problem_beyond (p, t->x, e)), before + w->nothing, changed);
+    set_retreats (w, t, -fmax (w->nothing, pg_ground_beyond (p, t->x, e)), before + w->nothing, changed);
 }
 
 /* Tips of other paths that the place belongs to end with it. */
-static void close_met (pg_crack_paths *w, const pg_problem *p, size_t tip, unsigned char *changed)
+static void close_met (pg_crack_paths *w, const pg_ground *p, size_t tip, unsigned char *changed)
 {
     const pg_tip *own = &w->tip[tip];
     for (size_t i = 0; i < w->ntip; i++) {
@@ -273,33 +229,25 @@ static void close_met (pg_crack_paths *w, const pg_problem *p, size_t tip, unsig
     }
 }
 
-pg_status pg_crack_grow (pg_state *s, const pg_problem *p, size_t tip, const double *to, int close,
-                         pg_changes *cut)
+pg_status paths_grow (pg_crack_paths *w, const pg_ground *p, size_t tip, const double *to, int close,
+                      unsigned char *changed)
 {
     pg_status status = PG_OK;
-    change c = { 0 };
-    if (!s->paths || tip >= s->paths->ntip || !s->paths->tip[tip].open)
-        PG_FAIL (PG_E_USAGE, "there is no open tip %zu", tip + 1);
-    const pg_tip *now = &s->paths->tip[tip];
-    double length = hypot (to[0] - now->x[0], to[1] - now->x[1]), before = now->offset;
-    if (!(length > s->paths->nothing) && !close) PG_FAIL (PG_E_USAGE, "a crack cannot grow by %g m", length);
-    PG_TRY (begin (&c, s, 2 + s->paths->ntip));        /* other tips that end here are split, too */
-    pg_state view = *s;                                /* the walks ask a state for its paths */
-    view.paths = c.fresh;
-    pg_tip *t = &c.fresh->tip[tip];
-    split_first (c.fresh, p, t);
-    if (length > c.fresh->nothing) move (c.fresh, p, t, to, length);
+    if (tip >= w->ntip || !w->tip[tip].open) PG_FAIL (PG_E_USAGE, "there is no open tip %zu", tip + 1);
+    pg_tip *t = &w->tip[tip];
+    double length = hypot (to[0] - t->x[0], to[1] - t->x[1]), before = t->offset;
+    if (!(length > w->nothing) && !close) PG_FAIL (PG_E_USAGE, "a crack cannot grow by %g m", length);
+    split_first (w, p, t);
+    if (length > w->nothing) move (w, p, t, to, length);
     if (close) {
         t->offset = length + before;
-        close_tip (c.fresh, p, tip, c.changed);
-        close_met (c.fresh, p, tip, c.changed);
+        close_tip (w, p, tip, changed);
+        close_met (w, p, tip, changed);
     } else {
-        t->offset = offset_at (&view, p, tip, 0);
-        set_retreats (c.fresh, t, t->offset, length + before + t->offset, c.changed);
+        t->offset = offset_at (w, p, tip, 0);
+        set_retreats (w, t, t->offset, length + before + t->offset, changed);
     }
-    PG_TRY (finish (&c, s, p, cut));
 done:
-    end (&c);
     return status;
 }
 
@@ -312,60 +260,37 @@ static void add_tip (pg_crack_paths *w, size_t k, int at)
     w->tip[w->ntip++] = (pg_tip) { .id = id, .segment = k, .end = at, .open = 1, .x = { x[0], x[1] } };
 }
 
-pg_status pg_crack_start (pg_state *s, const pg_problem *p, const double *from, const double *to, int open,
-                          pg_changes *cut)
+pg_status paths_start (pg_crack_paths *w, const pg_ground *p, const double *from, const double *to, int open,
+                       unsigned char *changed)
 {
     pg_status status = PG_OK;
-    change c = { 0 };
     double length = hypot (to[0] - from[0], to[1] - from[1]);
-    if (!s->paths) PG_FAIL (PG_E_USAGE, "cracks begin in the plane only");
-    if (!(length > s->paths->nothing)) PG_FAIL (PG_E_USAGE, "a crack cannot begin with %g m", length);
-    PG_TRY (begin (&c, s, 1));
-    pg_crack_paths *w = c.fresh;
-    pg_state view = *s;
-    view.paths = w;
+    if (!(length > w->nothing)) PG_FAIL (PG_E_USAGE, "a crack cannot begin with %g m", length);
     size_t k = append (w, p, from, to, SIZE_MAX, 0);
-    w->length += length, c.changed[k] = 1;
+    w->length += length, changed[k] = 1;
     for (int at = 0; at < 2; at++) {
         double e[2] = { at ? to[0] - from[0] : from[0] - to[0], at ? to[1] - from[1] : from[1] - to[1] };
         double *retreat = &w->cracks.crack[k].retreat[at];
         if (open & 1 << at) {
             add_tip (w, k, at);
             pg_tip *t = &w->tip[w->ntip - 1];
-            *retreat = t->offset = offset_at (&view, p, w->ntip - 1, open & PG_START_SLIDES);
+            *retreat = t->offset = offset_at (w, p, w->ntip - 1, open & PG_START_SLIDES);
         } else {
             for (int m = 0; m < 2; m++) e[m] /= length;
-            *retreat = -fmax (w->nothing, pg_problem_beyond (p, vertex_of (w, k, at), e));
+            *retreat = -fmax (w->nothing, pg_ground_beyond (p, vertex_of (w, k, at), e));
         }
     }
-    PG_TRY (finish (&c, s, p, cut));
 done:
-    end (&c);
     return status;
 }
 
 /* Boxes of the index stay as they are: a crack that cuts less lies within them. */
-void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offset)
+int paths_draw_back (pg_crack_paths *w, size_t tip, double offset)
 {
-    pg_tip *t = &s->paths->tip[tip];
-    size_t dim = (size_t) p->dim;
-    offset = fmin (offset, OFFSET_OF_PATH * pg_tip_behind (s, tip, offset / OFFSET_OF_PATH));
-    double *retreat = &s->paths->cracks.crack[t->segment].retreat[t->end];
-    if (t->grown > 0 || !t->open || !(offset > *retreat)) return;
+    pg_tip *t = &w->tip[tip];
+    offset = fmin (offset, OFFSET_OF_PATH * pg_tip_behind (w, tip, offset / OFFSET_OF_PATH));
+    double *retreat = &w->cracks.crack[t->segment].retreat[t->end];
+    if (t->grown > 0 || !t->open || !(offset > *retreat)) return 0;
     *retreat = t->offset = offset;
-    for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_rows *rows = &p->rows[set];
-        unsigned char *alive = s->alive + p->first_bond[set];
-        for (size_t q = 0; q < rows->n; q++)
-            for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
-                if (!alive[e])
-                    alive[e] = !pg_cracks_cut (&s->paths->cracks, rows->x + q * dim,
-                                               p->cloud.x + (size_t) rows->family.node[e] * dim,
-                                               pg_cloud_same (&p->cloud));
-    }
-}
-
-pg_status pg_tip_close (pg_state *s, const pg_problem *p, size_t tip, pg_changes *cut)
-{
-    return pg_crack_grow (s, p, tip, s->paths && tip < s->paths->ntip ? s->paths->tip[tip].x : NULL, 1, cut);
+    return 1;
 }

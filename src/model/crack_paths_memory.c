@@ -67,25 +67,25 @@ static void name_paths (pg_crack_paths *w)
     }
 }
 
-/* The cracks and tips of the scene. */
-pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
+pg_status paths_of (pg_crack_paths **out, const pg_cracks *cracks, const pg_tip *tip, size_t ntip,
+                    double nothing)
 {
     pg_status status = PG_OK;
     pg_crack_paths *w = NULL;
     PG_ALLOC (w, 1);
-    w->cracks.dim = 2, w->nothing = PG_NO_LENGTH * p->cloud.h;
-    PG_TRY (pg_crack_paths_reserve (w, p->cracks.n));
-    PG_GROW (w->tip, w->tip_capacity, p->ntip);
-    w->cracks.n = w->nfirst = p->cracks.n, w->ntip = p->ntip;
+    w->cracks.dim = 2, w->nothing = nothing;
+    PG_TRY (pg_crack_paths_reserve (w, cracks->n));
+    PG_GROW (w->tip, w->tip_capacity, ntip);
+    w->cracks.n = w->nfirst = cracks->n, w->ntip = ntip;
     for (size_t k = 0; k < w->cracks.n; k++) {
-        const pg_crack *c = &p->cracks.crack[k];
+        const pg_crack *c = &cracks->crack[k];
         double *store = w->store + 6*k;
         w->cracks.crack[k] = *c, w->parent[k] = SIZE_MAX, w->owner[k] = 0;
         memcpy (store, c->vertex, 4 * sizeof *store);
         store[4] = c->retreat ? c->retreat[0] : 0, store[5] = c->retreat ? c->retreat[1] : 0;
     }
     if (w->store) point_into_store (w);
-    if (w->ntip) memcpy (w->tip, p->tip, w->ntip * sizeof *w->tip);
+    if (w->ntip) memcpy (w->tip, tip, w->ntip * sizeof *w->tip);
     name_paths (w);
     PG_TRY (pg_cracks_index (&w->cracks));
     *out = w;
@@ -183,15 +183,14 @@ done:
 }
 
 /* The counts first: arrays of that length follow. A facet has cut one bond at least. */
-pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const char *name, const pg_keeper *k)
+pg_status paths_keep (pg_crack_paths *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long most = (long) (p->cracks.n + p->ntip + p->first_bond[PG_BOND_SETS]);
     char part[80];
     long count[2] = { (long) w->cracks.n, (long) w->ntip };
     snprintf (part, sizeof part, "%s.counts", name);
     PG_TRY (k->counts (k->context, part, 2, count));
-    PG_KEEP_BOUND (k, "the number of cracks", count[0], (long) p->cracks.n, most);
+    PG_KEEP_BOUND (k, "the number of cracks", count[0], (long) w->nfirst, most);
     PG_KEEP_BOUND (k, "the number of tips", count[1], 0, 2 * count[0]);
     snprintf (part, sizeof part, "%s.length", name);
     PG_TRY (k->numbers (k->context, part, 1, &w->length));

@@ -9,7 +9,7 @@
  *   4 triangles between the line where the surface ended and the new one, with the bend of the old front
  *     between them where the crack kinks.
  *
- * All is done on a copy of the surfaces, which takes their place when all has gone well. */
+ * The surfaces are spoilt by a step that fails (crack_bonds.c works on a copy). */
 #include "crack_surfaces.h"
 #include <stdint.h>
 #include <string.h>
@@ -81,12 +81,12 @@ pg_status stride_beyond_end (stride *s, unsigned char meets, const double *end, 
                              const double *normal)
 {
     pg_status status = PG_OK;
-    double e[3], out[3], h = pg_problem_spacing_at (s->p, end);
+    double e[3], out[3], h = pg_ground_spacing_at (s->p, end);
     for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
     if (meets == PG_MEETS_NOTHING || !pg_unit3 (e)) return PG_OK;
-    double a = meets == PG_MEETS_SURFACE ? pg_problem_way_out (s->p, end, e, h) : surface_flap * h;
+    double a = meets == PG_MEETS_SURFACE ? pg_ground_way_out (s->p, end, e, h) : surface_flap * h;
     pg_shift3 (end, e, a, out);
-    if (meets == PG_MEETS_SURFACE && a < h) pg_shift3 (end, e, a + pg_problem_beyond (s->p, out, e), out);
+    if (meets == PG_MEETS_SURFACE && a < h) pg_shift3 (end, e, a + pg_ground_beyond (s->p, out, e), out);
     PG_TRY (stride_to_line (s, out, normal));
 done:
     return status;
@@ -214,11 +214,11 @@ static pg_status around_edge (stride *s, size_t i, size_t j)
         || pg_dot3 (a, b) > SAME_FACE)
         return PG_OK;
     for (int k = 0; k < 3; k++) middle[k] = 0.5 * (x[k] + y[k]), way[k] = a[k] + b[k];
-    if (!pg_unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
-    double r = pg_problem_way_out (s->p, middle, way, surface_run_out * h);
+    if (!pg_unit3 (way) || !pg_ground_has_body (s->p, middle)) return PG_OK;
+    double r = pg_ground_way_out (s->p, middle, way, surface_run_out * h);
     pg_shift3 (middle, way, r, out);
     s->w->area += triangle_area3 (x, out, y);
-    pg_shift3 (out, way, pg_problem_beyond (s->p, out, way), out);
+    pg_shift3 (out, way, pg_ground_beyond (s->p, out, way), out);
     PG_TRY (stride_to_line (s, out, s->now.normal + 3*i));
 done:
     return status;
@@ -284,7 +284,7 @@ static void clear_stride (stride *s)
     pg_free (s->line), pg_free (s->side);
 }
 
-static pg_status begin_stride (stride *s, pg_crack_surfaces *w, const pg_problem *p, size_t front)
+static pg_status begin_stride (stride *s, pg_crack_surfaces *w, const pg_ground *p, size_t front)
 {
     pg_status status = PG_OK;
     size_t n = w->front[front].n;
@@ -305,7 +305,7 @@ enum { END_OF = 1 };
 
 /* One front; `ends`: vertices that end where they are, NULL: none. met: for vertices of all fronts, one array
  * after the other in the order of `start`, whether this step has run into them; NULL: not wanted. */
-static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, const double *d,
+static pg_status step (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
                        const double *theta, const unsigned char *ends, unsigned char *met,
                        const size_t *start, size_t nfront)
 {
@@ -339,7 +339,7 @@ done:
 }
 
 /* The step of a front, then of those that it has met, which end there. */
-static pg_status step_all (pg_crack_surfaces *w, const pg_problem *p, size_t front, const double *d,
+static pg_status step_all (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
                            const double *theta, const unsigned char *ends)
 {
     pg_status status = PG_OK;
@@ -359,62 +359,23 @@ done:
     return status;
 }
 
-pg_status surfaces_begin (pg_crack_surfaces **fresh, const pg_state *state)
+pg_status surfaces_advance (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
+                            const double *theta)
 {
     pg_status status = PG_OK;
-    PG_ALLOC (*fresh, 1);
-    PG_TRY (pg_crack_surfaces_copy (*fresh, state->surfaces));
-done:
-    return status;
-}
-
-pg_status surfaces_finish (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p, pg_changes *cut)
-{
-    pg_status status = PG_OK;
-    PG_TRY (pg_cracks_index (&(*fresh)->cracks));
-    size_t first = state->surfaces->cracks.n;          /* only the new triangles cut anew */
-    PG_TRY (pg_bonds_cut_by (state, p, (*fresh)->cracks.crack + first, (*fresh)->cracks.n - first, cut));
-    pg_crack_surfaces *old = state->surfaces;
-    state->surfaces = *fresh, *fresh = old;
-done:
-    return status;
-}
-
-pg_status pg_front_advance (pg_state *state, const pg_problem *p, size_t front, const double *d,
-                            const double *theta, pg_changes *cut)
-{
-    pg_status status = PG_OK;
-    pg_crack_surfaces *fresh = NULL;
-    double most = 0;
-    if (!state->surfaces || front >= state->surfaces->nfront || !state->surfaces->front[front].open)
-        PG_FAIL (PG_E_USAGE, "there is no open front %zu", front + 1);
-    for (size_t i = 0; i < state->surfaces->front[front].n; i++)
-        most = d[i] >= 0 && isfinite (theta[i]) ? fmax (most, d[i]) : INFINITY;
-    if (!(most > state->surfaces->nothing && isfinite (most)))
-        PG_FAIL (PG_E_USAGE, "a front cannot advance by %g m", most);
-    PG_TRY (surfaces_begin (&fresh, state));
-    PG_TRY (step_all (fresh, p, front, d, theta, NULL));
-    PG_TRY (surfaces_finish (&fresh, state, p, cut));
-done:
-    pg_crack_surfaces_free (&fresh);
-    return status;
-}
-
-pg_status pg_front_close (pg_state *state, const pg_problem *p, size_t front, pg_changes *cut)
-{
-    pg_status status = PG_OK;
-    pg_crack_surfaces *fresh = NULL;
     unsigned char *ends = NULL;
-    if (!state->surfaces || front >= state->surfaces->nfront || !state->surfaces->front[front].open)
+    double most = 0;
+    if (front >= w->nfront || !w->front[front].open)
         PG_FAIL (PG_E_USAGE, "there is no open front %zu", front + 1);
-    size_t n = state->surfaces->front[front].n;
-    PG_ALLOC (ends, n);
-    memset (ends, END_OF + PG_MEETS_NOTHING, n);
-    PG_TRY (surfaces_begin (&fresh, state));
-    PG_TRY (step_all (fresh, p, front, NULL, NULL, ends));
-    PG_TRY (surfaces_finish (&fresh, state, p, cut));
+    size_t n = w->front[front].n;
+    for (size_t i = 0; d && i < n; i++)
+        most = d[i] >= 0 && isfinite (theta[i]) ? fmax (most, d[i]) : INFINITY;
+    if (d && !(most > w->nothing && isfinite (most)))
+        PG_FAIL (PG_E_USAGE, "a front cannot advance by %g m", most);
+    if (!d) PG_ALLOC (ends, n);
+    if (!d) memset (ends, END_OF + PG_MEETS_NOTHING, n);
+    PG_TRY (step_all (w, p, front, d, theta, ends));
 done:
     pg_free (ends);
-    pg_crack_surfaces_free (&fresh);
     return status;
 }

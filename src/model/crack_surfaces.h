@@ -16,6 +16,11 @@
 #include <math.h>
 
 /* ---- crack_surfaces_memory.c --------------------------------------------------------------------------- */
+/* Surfaces that grow from cracks and their fronts; places no further apart than `nothing` (m) are one.
+ * pg_crack_surfaces_keep, at most so many parts of a kind. */
+pg_status surfaces_of   (pg_crack_surfaces **out, const pg_cracks *cracks, const pg_front *front,
+                         size_t nfront, double nothing);
+pg_status surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k);
 pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices);   /* in all */
 pg_status surfaces_reserve_fronts (pg_crack_surfaces *w, size_t n);
 
@@ -29,21 +34,21 @@ void   surfaces_put_triangle (pg_crack_surfaces *w, const size_t corner[3], cons
 typedef struct { size_t n; const size_t *vertex; const double *normal; int closed; } surface_line;
 /* Triangles between two lines of the same direction, whose edges across are the shortest in all. Those of
  * next to no height are left out. */
-pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+pg_status surfaces_zip (pg_crack_surfaces *w, const pg_ground *p, const surface_line *from,
                         const surface_line *to, long owner);
 double triangle_area3 (const double *a, const double *b, const double *c);
 
 /* ---- crack_surfaces_meet.c ----------------------------------------------------------------------------- */
 /* The place of the surface nearest to x within the plane of e (unit, about towards the surface) and u (unit,
  * across e), and the direction of the surface in that plane. 0: there is none up to `limit`. */
-int space_foot (const pg_problem *p, const double *x, const double *e, const double *u, double limit,
+int space_foot (const pg_ground *p, const double *x, const double *e, const double *u, double limit,
                 double *foot, double *along);
 /* Where a vertex that would go to x + d e ends: the way to go, m; *meets: what it meets there. */
-double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t vertex,
+double space_way (const pg_ground *p, const pg_crack_surfaces *w, size_t front, size_t vertex,
                   const double *e, double d, unsigned char *meets, double *place);
 /* Distance from x in direction e to the first place without body or to a crack, whichever comes first, at
  * most `limit`; *meets: which. */
-double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,
+double space_end (const pg_ground *p, const pg_crack_surfaces *w, const double *x, const double *e,
                   double limit, unsigned char *meets);
 
 /* ---- front_loops.c ------------------------------------------------------------------------------------- */
@@ -63,7 +68,7 @@ void front_tangent (const pg_front *f, size_t i, double *tangent);
 /* Makes ahead and normal orthogonal to the tangent and to each other. */
 void front_frames (pg_front *f);
 /* Vertices about a spacing apart; c: the places where the crack cuts to (n x 3), moved with them. */
-pg_status front_resample (pg_front *f, const pg_problem *p, double **c);
+pg_status front_resample (pg_front *f, const pg_ground *p, double **c);
 
 /* How far a crack cuts beyond another one that it meets; fronts within `met` of the place where another one
  * met them end there; what is left between closed vertices goes on at most `run_out`: spacings. */
@@ -72,7 +77,7 @@ static const double surface_flap = 0.1, surface_met = 0.75, surface_run_out = 4;
 /* What one front does in a step. */
 typedef struct {
     pg_crack_surfaces *w;
-    const pg_problem *p;
+    const pg_ground *p;
     size_t number;                                     /* of the front in w */
     pg_front old, now;                                 /* before (a view), and moved */
     double *c, *bend, *way;  /* where the crack cuts to, and where it bends (n x 3); direction of motion */
@@ -102,11 +107,14 @@ pg_status stride_beyond_end (stride *s, unsigned char meets, const double *end, 
 /* Adds the vertices of a front, whose crack cuts to c, to the line; its rim is that stretch of the line.
  * shared: its first vertex is the last of the line already. starts, stops: with what lies beyond its ends. */
 pg_status stride_lay        (stride *s, pg_front *f, const double *c, int shared, int starts, int stops);
-/* A copy to work on; and its place in the state, with the bonds that what is new cuts. */
-pg_status surfaces_begin  (pg_crack_surfaces **fresh, const pg_state *state);
-pg_status surfaces_finish (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p, pg_changes *cut);
+/* What pg_front_advance does to surfaces; d, theta NULL: the front ends where it is. What pg_surface_start
+ * does. PG_E_USAGE. */
+pg_status surfaces_advance (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
+                            const double *theta);
+pg_status surfaces_start   (pg_crack_surfaces *w, const pg_ground *p, size_t n, const double *x,
+                            const double *normal);
 /* How far behind its place a front cuts nothing, m. */
-double front_offset_at (const pg_problem *p, const double *x);
+double front_offset_at (const pg_ground *p, const double *x);
 long   surfaces_next_id (const pg_crack_surfaces *w);
 /* Length of a front, m. */
 double front_length (const pg_front *f);

@@ -94,16 +94,16 @@ static int is_corner (const pg_front *f, size_t i)
 typedef struct { size_t from; double t; } spot;
 
 /* Length of segment i in spacings, those at its middle. */
-static double spacings_of (const pg_front *f, const pg_problem *p, size_t i)
+static double spacings_of (const pg_front *f, const pg_ground *p, size_t i)
 {
     const double *a = f->x + 3*i, *b = f->x + 3 * ((i + 1) % f->n);
     double middle[3] = { 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]) };
-    return pg_distance3 (a, b) / pg_problem_spacing_at (p, middle);
+    return pg_distance3 (a, b) / pg_ground_spacing_at (p, middle);
 }
 
 /* The vertices of the stretch from corner `first` over m segments, but for its last one: as they are, or
  * distributed anew. Returns how many; *moved: they are others. */
-static size_t spots_of (const pg_front *f, const pg_problem *p, size_t first, size_t m, size_t least,
+static size_t spots_of (const pg_front *f, const pg_ground *p, size_t first, size_t m, size_t least,
                         spot *out, size_t room, int *moved)
 {
     double total = 0, shortest = INFINITY, longest = 0;
@@ -134,7 +134,7 @@ static size_t spots_of (const pg_front *f, const pg_problem *p, size_t first, si
 }
 
 /* The vertices of a loop without corners: as they are, or at equal parts from where a loop begins. */
-static size_t spots_of_loop (const pg_front *f, const pg_problem *p, spot *out, size_t room, int *moved)
+static size_t spots_of_loop (const pg_front *f, const pg_ground *p, spot *out, size_t room, int *moved)
 {
     double total = 0, shortest = INFINITY, longest = 0, share;
     size_t first, parts = front_loop_start (f->n, f->x, &first, &share), n = 0;
@@ -212,7 +212,7 @@ done:
     return status;
 }
 
-pg_status front_resample (pg_front *f, const pg_problem *p, double **c)
+pg_status front_resample (pg_front *f, const pg_ground *p, double **c)
 {
     pg_status status = PG_OK;
     spot *q = NULL;
@@ -222,7 +222,7 @@ pg_status front_resample (pg_front *f, const pg_problem *p, double **c)
     if (f->n < 2) return PG_OK;
     for (size_t i = 0; i < f->n; i++) {
         if (is_corner (f, i) && corners++ == 0) first = i;
-        finest = fmin (finest, pg_problem_spacing_at (p, f->x + 3*i));
+        finest = fmin (finest, pg_ground_spacing_at (p, f->x + 3*i));
     }
     room += 2 * (size_t) (front_length (f) / finest);
     PG_ALLOC (q, room + 2);

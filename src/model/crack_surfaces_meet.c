@@ -86,13 +86,13 @@ static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, con
 /* The line in which the surface cuts a plane of the crack, seen from x in the direction e: through where two
  * rays end that leave by 30 degrees to both sides of it. u: unit, in that plane, across e. The foot is the
  * place of that line nearest to x; `along` its direction (unit, towards u); 0: a ray does not end. */
-int space_foot (const pg_problem *p, const double *x, const double *e, const double *u, double limit,
+int space_foot (const pg_ground *p, const double *x, const double *e, const double *u, double limit,
                 double *foot, double *along)
 {
     double c = sqrt (0.75), hit[2][3], way[3], d[3];
     for (int side = 0; side < 2; side++) {
         for (int k = 0; k < 3; k++) way[k] = c * e[k] + (side ? 0.5 : -0.5) * u[k];
-        double r = pg_problem_way_out (p, x, way, limit);
+        double r = pg_ground_way_out (p, x, way, limit);
         if (!(r < limit)) return 0;
         pg_shift3 (x, way, r, hit[side]);
     }
@@ -103,7 +103,7 @@ int space_foot (const pg_problem *p, const double *x, const double *e, const dou
 }
 
 /* A surface that a vertex passes by, rather than going into it, is seen at less than 45 degrees. */
-static int passes_by (const pg_problem *p, const pg_front *f, size_t i, const double *e, double limit)
+static int passes_by (const pg_ground *p, const pg_front *f, size_t i, const double *e, double limit)
 {
     double u[3], foot[3], along[3];
     pg_cross3 (f->ahead + 3*i, f->normal + 3*i, u);
@@ -111,13 +111,13 @@ static int passes_by (const pg_problem *p, const pg_front *f, size_t i, const do
     return !space_foot (p, f->x + 3*i, e, u, limit, foot, along) || fabs (pg_dot3 (along, e)) > sqrt (0.5);
 }
 
-double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
+double space_way (const pg_ground *p, const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
                   double d, unsigned char *meets, double *place)
 {
     const double *x = w->front[front].x + 3*i;
-    double h = pg_problem_spacing_at (p, x), way = d, goal[3];
+    double h = pg_ground_spacing_at (p, x), way = d, goal[3];
     *meets = PG_MEETS_NOTHING;
-    double a = pg_problem_way_out (p, x, e, d + to_surface * h);
+    double a = pg_ground_way_out (p, x, e, d + to_surface * h);
     if (a < d + to_surface * h && (a <= d || !passes_by (p, &w->front[front], i, e, seen_to * h)))
         way = a, *meets = PG_MEETS_SURFACE;
     double r = ray_to_cracks (&w->cracks, x, e, d + to_crack * h, h);
@@ -129,10 +129,10 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
     return pg_distance3 (place, x);
 }
 
-double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,
+double space_end (const pg_ground *p, const pg_crack_surfaces *w, const double *x, const double *e,
                   double limit, unsigned char *meets)
 {
-    double h = pg_problem_spacing_at (p, x), a = pg_problem_way_out (p, x, e, limit);
+    double h = pg_ground_spacing_at (p, x), a = pg_ground_way_out (p, x, e, limit);
     double r = ray_to_cracks (&w->cracks, x, e, limit, h);
     *meets = r < a ? PG_MEETS_CRACK : a < limit ? PG_MEETS_SURFACE : PG_MEETS_NOTHING;
     return fmin (r, a);

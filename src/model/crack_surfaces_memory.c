@@ -97,17 +97,18 @@ done:
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* Cracks of the scene are the problem's: a state has their vertices by reference, for they do not change. */
-pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *p)
+pg_status surfaces_of (pg_crack_surfaces **out, const pg_cracks *cracks, const pg_front *front, size_t nfront,
+                       double nothing)
 {
     pg_status status = PG_OK;
     pg_crack_surfaces *w = NULL;
     PG_ALLOC (w, 1);
-    w->cracks.dim = 3, w->nothing = PG_NO_LENGTH * p->cloud.h;
-    PG_TRY (surfaces_reserve (w, p->cracks.n, 0));
-    PG_TRY (surfaces_reserve_fronts (w, p->nfront));
-    w->cracks.n = w->nfirst = p->cracks.n;
-    for (size_t k = 0; k < w->nfirst; k++) w->cracks.crack[k] = p->cracks.crack[k];
-    for (size_t f = 0; f < p->nfront; f++, w->nfront++) PG_TRY (pg_front_copy (&w->front[f], &p->front[f]));
+    w->cracks.dim = 3, w->nothing = nothing;
+    PG_TRY (surfaces_reserve (w, cracks->n, 0));
+    PG_TRY (surfaces_reserve_fronts (w, nfront));
+    w->cracks.n = w->nfirst = cracks->n;
+    for (size_t k = 0; k < w->nfirst; k++) w->cracks.crack[k] = cracks->crack[k];
+    for (size_t f = 0; f < nfront; f++, w->nfront++) PG_TRY (pg_front_copy (&w->front[f], &front[f]));
     PG_TRY (pg_cracks_index (&w->cracks));
     *out = w;
     w = NULL;
@@ -263,14 +264,11 @@ done:
     return status;
 }
 
-/* The counts first. A vertex of a surface has cut some bond, or lies beside one that has: there are not more
- * than a hundred for each bond. */
-pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, const char *name,
-                                  const pg_keeper *k)
+/* The counts first. */
+pg_status surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     walk v = { .w = w, .k = k, .name = name };
-    long most = 1000 + 100 * (long) (p->cracks.n + p->first_bond[PG_BOND_SETS]);
     long count[3] = { (long) (w->cracks.n - w->nfirst), (long) w->nvertex, (long) w->nfront };
     PG_TRY (k->counts (k->context, part_of (&v, "counts"), 3, count));
     for (int i = 0; i < 3; i++) PG_KEEP_BOUND (k, "the size of the cracks", count[i], 0, most);

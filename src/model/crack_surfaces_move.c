@@ -17,7 +17,7 @@ enum { FEW = 1 };
 
 double stride_spacing (const stride *s, size_t i)
 {
-    return pg_problem_spacing_at (s->p, s->now.x + 3*i);
+    return pg_ground_spacing_at (s->p, s->now.x + 3*i);
 }
 
 int stride_is_end (const stride *s, size_t i)
@@ -25,9 +25,9 @@ int stride_is_end (const stride *s, size_t i)
     return !s->old.closed && (i == 0 || i + 1 == s->old.n);
 }
 
-double front_offset_at (const pg_problem *p, const double *x)
+double front_offset_at (const pg_ground *p, const double *x)
 {
-    return p->tip_offset * pg_problem_spacing_at (p, x) / p->cloud.h;
+    return p->tip_offset * pg_ground_spacing_at (p, x) / p->cloud->h;
 }
 
 long surfaces_next_id (const pg_crack_surfaces *w)
@@ -286,7 +286,7 @@ static const double *rim_at (const stride *s, size_t i, const double *place)
 static double overshoot (const stride *s, size_t i, const double *way)
 {
     double h = stride_spacing (s, i), *x = s->now.x + 3*i;
-    if (s->now.meets[i] == PG_MEETS_SURFACE) return fmax (s->w->nothing, pg_problem_beyond (s->p, x, way));
+    if (s->now.meets[i] == PG_MEETS_SURFACE) return fmax (s->w->nothing, pg_ground_beyond (s->p, x, way));
     return s->now.meets[i] == PG_MEETS_CRACK ? surface_flap * h : s->w->nothing;
 }
 

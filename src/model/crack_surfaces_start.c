@@ -43,7 +43,7 @@ static pg_status read (patch *c, size_t n, const double *x)
     c->offset = fmin (front_offset_at (c->s.p, c->middle), OFFSET_OF_SIZE * sqrt (fabs (sum)));
     for (size_t i = 0; i < n; i++) {
         memcpy (c->x + 3*i, x + 3 * (sum > 0 ? n - 1 - i : i), 3 * sizeof *x);
-        c->in[i] = (unsigned char) pg_problem_has_body (c->s.p, c->x + 3*i);
+        c->in[i] = (unsigned char) pg_ground_has_body (c->s.p, c->x + 3*i);
     }
 done:
     return status;
@@ -57,7 +57,7 @@ static void leave (const patch *c, size_t inside, size_t outside, double *place)
     for (int i = 0; i < HALVINGS; i++) {
         double t = 0.5 * (near + far);
         for (int k = 0; k < 3; k++) place[k] = a[k] + t * (b[k] - a[k]);
-        if (pg_problem_has_body (c->s.p, place)) near = t;
+        if (pg_ground_has_body (c->s.p, place)) near = t;
         else far = t;
     }
     for (int k = 0; k < 3; k++) place[k] = a[k] + near * (b[k] - a[k]);
@@ -84,12 +84,12 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
     for (size_t k = 0; k < m; k++) {                   /* a first vertex next to the end is left out */
         const double *x = c->x + 3 * ((first + k) % n);
-        if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_problem_spacing_at (c->s.p, x))
+        if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_ground_spacing_at (c->s.p, x))
             put_vertex (c, &f, x, PG_MEETS_NOTHING);
     }
     if (!f.closed) {
         leave (c, (first + m - 1) % n, (first + m) % n, place);
-        if (f.n > 2 && pg_distance3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_problem_spacing_at (c->s.p,
+        if (f.n > 2 && pg_distance3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_ground_spacing_at (c->s.p,
                                                                                                       place))
             f.n--;
         put_vertex (c, &f, place, PG_MEETS_SURFACE);
@@ -131,31 +131,25 @@ done:
     return status;
 }
 
-pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, const double *x,
-                            const double *normal, pg_changes *cut)
+pg_status surfaces_start (pg_crack_surfaces *w, const pg_ground *p, size_t n, const double *x,
+                          const double *normal)
 {
     pg_status status = PG_OK;
-    pg_crack_surfaces *fresh = NULL;
-    patch c = { .s = { .p = p }, .normal = normal };
-    if (!state->surfaces) PG_FAIL (PG_E_USAGE, "surfaces begin in space only, where cracks grow");
+    patch c = { .s = { .w = w, .p = p }, .normal = normal };
     if (n < 3) PG_FAIL (PG_E_USAGE, "a crack cannot begin with %zu vertices", n);
-    PG_TRY (surfaces_begin (&fresh, state));
-    c.s.w = fresh;
     PG_TRY (read (&c, n, x));
-    size_t fronts = fresh->nfront;
+    size_t fronts = w->nfront;
     PG_TRY (add_fronts (&c));
-    if (fresh->nfront == fronts) PG_FAIL (PG_E_USAGE, "a crack cannot begin outside of the body");
-    PG_TRY (surfaces_reserve (fresh, fresh->cracks.n, fresh->nvertex + 1));
-    size_t middle = surfaces_put_vertex (fresh, c.middle);
+    if (w->nfront == fronts) PG_FAIL (PG_E_USAGE, "a crack cannot begin outside of the body");
+    PG_TRY (surfaces_reserve (w, w->cracks.n, w->nvertex + 1));
+    size_t middle = surfaces_put_vertex (w, c.middle);
     surface_line apex = { 1, &middle, normal, 0 }, outline = { c.s.nline, c.s.line, c.s.side, 1 };
-    PG_TRY (surfaces_zip (fresh, p, &apex, &outline, fresh->front[fronts].id));
+    PG_TRY (surfaces_zip (w, p, &apex, &outline, w->front[fronts].id));
     for (size_t i = 0; i < n; i++) {
         const double *u = c.x + 3*i, *v = c.x + 3 * ((i + 1) % n);
-        fresh->area += pg_problem_area_inside (p, c.middle, u, v, triangle_area3 (c.middle, u, v));
+        w->area += pg_ground_area_inside (p, c.middle, u, v, triangle_area3 (c.middle, u, v));
     }
-    PG_TRY (surfaces_finish (&fresh, state, p, cut));
 done:
-    pg_crack_surfaces_free (&fresh);
     pg_free (c.x), pg_free (c.in), pg_free (c.s.line), pg_free (c.s.side);
     return status;
 }

@@ -38,11 +38,11 @@ void surfaces_put_triangle (pg_crack_surfaces *w, const size_t corner[3], const 
 }
 
 /* Appends the triangle of three vertices with its normal on the side of `side`. */
-static void put (pg_crack_surfaces *w, const pg_problem *p, size_t a, size_t b, size_t c, const double *side,
+static void put (pg_crack_surfaces *w, const pg_ground *p, size_t a, size_t b, size_t c, const double *side,
                  long owner)
 {
     const double *x = w->vertex + 3*a, *y = w->vertex + 3*b, *z = w->vertex + 3*c;
-    double u[3], v[3], n[3], h = pg_problem_spacing_at (p, x);
+    double u[3], v[3], n[3], h = pg_ground_spacing_at (p, x);
     if (a == b || b == c || a == c) return;
     for (int k = 0; k < 3; k++) u[k] = y[k] - x[k], v[k] = z[k] - x[k];
     pg_cross3 (u, v, n);
@@ -61,14 +61,14 @@ static const double same_length = 1e-6;
 
 /* Of two ways across, is the first one's middle as near to the middle of the body, or nearer? Of ways of one
  * length this chooses the same one in a mirror image of the body and from the other end of the lines. */
-static int nearer_middle (const pg_crack_surfaces *w, const pg_problem *p, const size_t *way,
+static int nearer_middle (const pg_crack_surfaces *w, const pg_ground *p, const size_t *way,
                           const size_t *other)
 {
     const double *a = w->vertex + 3 * way[0], *b = w->vertex + 3 * way[1];
     const double *c = w->vertex + 3 * other[0], *d = w->vertex + 3 * other[1];
     double near = 0, far = 0;                          /* squares of twice the distances, m^2 */
     for (int k = 0; k < 3; k++) {
-        double middle = p->cloud.low[k] + p->cloud.high[k];
+        double middle = p->cloud->low[k] + p->cloud->high[k];
         double x = a[k] + b[k] - middle, y = c[k] + d[k] - middle;
         near += x * x, far += y * y;
     }
@@ -76,7 +76,7 @@ static int nearer_middle (const pg_crack_surfaces *w, const pg_problem *p, const
 }
 
 /* Where two loops begin: with the shortest way between them. Else at their first vertices. */
-static void beginning (const pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+static void beginning (const pg_crack_surfaces *w, const pg_ground *p, const surface_line *from,
                        const surface_line *to, size_t *first, size_t *start)
 {
     double least = INFINITY;
@@ -96,7 +96,7 @@ static void beginning (const pg_crack_surfaces *w, const pg_problem *p, const su
 /* Steps along the lines, 1: along the first one, between which the ways across are shortest in all: of ways
  * of length d_ij across from i to j the least sum c_ij = d_ij + min (c_i-1,j, c_i,j-1). A choice at each step
  * by itself would be another one from the other end of the lines. */
-static pg_status shortest_ways (const pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+static pg_status shortest_ways (const pg_crack_surfaces *w, const pg_ground *p, const surface_line *from,
                                 const surface_line *to, size_t first, size_t start, size_t last, size_t end,
                                 unsigned char *step)
 {
@@ -127,7 +127,7 @@ done:
     return status;
 }
 
-pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+pg_status surfaces_zip (pg_crack_surfaces *w, const pg_ground *p, const surface_line *from,
                         const surface_line *to, long owner)
 {
     pg_status status = PG_OK;

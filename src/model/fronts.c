@@ -20,7 +20,8 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- outlines ------------------------------------------------------------------------------------------ */
 typedef struct {
-    pg_problem *p;
+    const pg_ground *p;
+    const pg_cracks *cracks;                           /* all of them */
     const pg_crack *crack;
     size_t number;                                     /* of the crack */
     double length;                                     /* of the outline, m */
@@ -70,9 +71,8 @@ static size_t outline_at (const outline *o, double s, double *x, double *e)
 /* Does another crack pass through x? */
 static int on_another (const outline *o, const double *x)
 {
-    const pg_problem *p = o->p;
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (c != o->number && pg_crack_touches (&p->cracks.crack[c], 3, x, 1e-6 * p->cloud.h)) return 1;
+    for (size_t c = 0; c < o->cracks->n; c++)
+        if (c != o->number && pg_crack_touches (&o->cracks->crack[c], 3, x, 1e-6 * o->p->cloud->h)) return 1;
     return 0;
 }
 
@@ -81,10 +81,10 @@ static int is_front (const outline *o, double s, unsigned char *meets)
 {
     double x[3], e[3], place[3];
     outline_at (o, s, x, e);
-    double h = pg_problem_spacing_at (o->p, x);
+    double h = pg_ground_spacing_at (o->p, x);
     *meets = PG_MEETS_SURFACE;
     for (int k = 0; k < 3; k++) place[k] = x[k] + ahead * h * e[k];
-    if (!pg_problem_has_body (o->p, x) || !pg_problem_has_body (o->p, place)) return 0;
+    if (!pg_ground_has_body (o->p, x) || !pg_ground_has_body (o->p, place)) return 0;
     *meets = on_another (o, x) ? PG_MEETS_CRACK : PG_MEETS_NOTHING;
     return *meets == PG_MEETS_NOTHING;
 }
@@ -137,7 +137,7 @@ static size_t disc_parts (const outline *o, size_t *parts)
 {
     double direction[LOOP_DIRECTIONS][3];
     front_loop_directions (o->crack->normal, direction, parts);
-    return front_loop_parts (o->length / o->p->cloud.h, *parts);
+    return front_loop_parts (o->length / o->p->cloud->h, *parts);
 }
 
 /* The part from s to s + length of an outline: vertices of a polygon between them, of a disc equal parts. */
@@ -145,7 +145,7 @@ static pg_status draw (line *l, const outline *o, double s, double length, const
 {
     pg_status status = PG_OK;
     const pg_crack *c = o->crack;
-    double x[3], e[3], h = o->p->cloud.h;
+    double x[3], e[3], h = o->p->cloud->h;
     size_t n = FINER * (size_t) fmax (1, round (length * o->length / h)), edge;
     if (l->f.closed && c->kind == PG_CRACK_DISC) n = FINER * disc_parts (o, &l->parts);
     if (c->kind == PG_CRACK_DISC) {
@@ -193,7 +193,7 @@ static pg_status find_lines (lines *all, const outline *o, const double *retreat
 {
     pg_status status = PG_OK;
     unsigned char *in = NULL, why, first = 0, last = 0;
-    size_t n = (size_t) fmin (MOST_STEPS, 16 + ceil (STEPS * o->length / o->p->cloud.h)), start = 0;
+    size_t n = (size_t) fmin (MOST_STEPS, 16 + ceil (STEPS * o->length / o->p->cloud->h)), start = 0;
     double step = 1.0 / (double) n;
     PG_ALLOC (in, n);
     for (size_t i = 0; i < n; i++) in[i] = (unsigned char) is_front (o, ((double) i + 0.5) * step, &why);
@@ -209,7 +209,7 @@ static pg_status find_lines (lines *all, const outline *o, const double *retreat
         while (in[j % n]) j++;
         double from = ((double) i + 0.5) * step, to = ((double) j - 0.5) * step;
         double low = end_between (o, from, from - step, &first), high = end_between (o, to, to + step, &last);
-        if ((high - low) * o->length > shortest * o->p->cloud.h)
+        if ((high - low) * o->length > shortest * o->p->cloud->h)
             PG_TRY (add_line (all, o, low - floor (low), high - low, first, last, 0, retreat));
         i = j;
     }
@@ -299,7 +299,7 @@ static pg_status put_vertex (pg_front *f, const pg_front *l, size_t i, double sh
 
 /* Vertices of the places from .. to of a line, about a local spacing apart, the last left out; parts: their
  * number is a multiple of this. */
-static pg_status divide (pg_front *f, const pg_front *l, const pg_problem *p, size_t from, size_t to,
+static pg_status divide (pg_front *f, const pg_front *l, const pg_ground *p, size_t from, size_t to,
                          size_t parts)
 {
     pg_status status = PG_OK;
@@ -308,7 +308,7 @@ static pg_status divide (pg_front *f, const pg_front *l, const pg_problem *p, si
     for (size_t i = from; i < to; i++) {
         double middle[3];
         for (int k = 0; k < 3; k++) middle[k] = 0.5 * (at (l, i)[k] + at (l, i + 1)[k]);
-        total += pg_distance3 (at (l, i), at (l, i + 1)) / pg_problem_spacing_at (p, middle);
+        total += pg_distance3 (at (l, i), at (l, i + 1)) / pg_ground_spacing_at (p, middle);
         way[i - from + 1] = total;
     }
     size_t n = front_loop_parts (total, parts), i = from;
@@ -340,7 +340,7 @@ static void frame (pg_front *f)
     }
 }
 
-static pg_status make_front (pg_front *f, const line *from, const pg_problem *p)
+static pg_status make_front (pg_front *f, const line *from, const pg_ground *p)
 {
     pg_status status = PG_OK;
     const pg_front *l = &from->f;
@@ -362,20 +362,21 @@ done:
     return status;
 }
 
-pg_status pg_fronts_find (pg_problem *p, double *const *retreat)
+pg_status pg_fronts_find (const pg_ground *p, const pg_cracks *cracks, double *const *retreat, pg_front **out,
+                          size_t *n)
 {
     pg_status status = PG_OK;
     lines all = { 0 };
-    for (size_t c = 0; c < p->cracks.n; c++) {
-        outline o = { p, &p->cracks.crack[c], c, outline_length (&p->cracks.crack[c]) };
+    for (size_t c = 0; c < cracks->n; c++) {
+        outline o = { p, cracks, &cracks->crack[c], c, outline_length (&cracks->crack[c]) };
         PG_TRY (find_lines (&all, &o, retreat ? retreat[c] : NULL));
     }
-    PG_TRY (join (&all, together * p->cloud.h));
-    PG_ALLOC (p->front, all.n + 1);
+    PG_TRY (join (&all, together * p->cloud->h));
+    PG_ALLOC (*out, all.n + 1);
     for (size_t i = 0; i < all.n; i++) {
         if (all.line[i].used) continue;
-        pg_front *f = &p->front[p->nfront++];
-        f->id = f->of = (long) p->nfront;
+        pg_front *f = &(*out)[(*n)++];
+        f->id = f->of = (long) *n;
         PG_TRY (make_front (f, &all.line[i], p));
     }
 done:

@@ -90,10 +90,11 @@ typedef struct { const pg_problem *p; size_t hole; double least, spacing, at[3];
 static double thickness (const pg_problem *p, const double *x, const double *e, double *h)
 {
     const double inside = 1e-6;                        /* spacings */
+    const pg_ground ground = pg_problem_ground (p);
     double start[3];
     *h = pg_problem_spacing_at (p, x);
     for (int k = 0; k < 3; k++) start[k] = x[k] + inside * *h * e[k];
-    return pg_problem_has_body (p, start) ? pg_problem_way_out (p, start, e, *h) + inside * *h : 0;
+    return pg_problem_has_body (p, start) ? pg_ground_way_out (&ground, start, e, *h) + inside * *h : 0;
 }
 
 static void take_thinnest (thinnest *t, double wall, double h, const double *x)

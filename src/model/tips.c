@@ -133,9 +133,10 @@ static double triangle_area (const pg_crack *c, size_t i)
 static double area_inside (const surroundings *s, const pg_crack *c)
 {
     const double *x = c->vertex;
+    const pg_ground ground = pg_problem_ground (s->p);
     double area = 0;
     for (size_t i = 1; i + 1 < c->nvertex; i++)
-        area += pg_problem_area_inside (s->p, x, x + 3*i, x + 3*i + 3, triangle_area (c, i));
+        area += pg_ground_area_inside (&ground, x, x + 3*i, x + 3*i + 3, triangle_area (c, i));
     return area;
 }
 
@@ -339,8 +340,10 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     s.offset = p->tip_offset = offset_of (p, scene);
     p->closed_tip_offset = closed_offset_of (p, scene);
     if (p->cracks.n == 0) return PG_OK;
+    const pg_ground ground = pg_problem_ground (p);
     if (p->dim == 2) PG_ALLOC (p->tip, 2 * p->cracks.n);
-    if (p->dim == 3 && !p->method->shape_functions && !(s.offset > 0)) return pg_fronts_find (p, NULL);
+    if (p->dim == 3 && !p->method->shape_functions && !(s.offset > 0))
+        return pg_fronts_find (&ground, &p->cracks, NULL, &p->front, &p->nfront);
     PG_ALLOC (made, p->cracks.n);
     PG_ALLOC (s.extent, p->cracks.n);
     /* all before any: an end on another crack is none of its own */
@@ -354,7 +357,8 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     }
     /* before they retreat: cracks as drawn */
     if (p->method->shape_functions || pg_problem_grows (p)) tell (p, scene, s.extent);
-    if (p->dim == 3) PG_TRY (pg_fronts_find (p, s.offset > 0 ? made : NULL));
+    if (p->dim == 3)
+        PG_TRY (pg_fronts_find (&ground, &p->cracks, s.offset > 0 ? made : NULL, &p->front, &p->nfront));
     for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
         p->cracks.crack[k].retreat = made[k], made[k] = NULL;
     PG_TRY (pg_cracks_index (&p->cracks));             /* a segment may cut beyond its ends */

@@ -424,8 +424,8 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
     const struct system_contact *c = s->contact;
     const double *x = state->paths->tip[tip].x;
     double area = 0, force[2][2] = { { 0 } }, from[2], e[2], h = pg_problem_spacing_at (s->problem, x),
-           straight = pg_tip_straight (state, tip, PG_CONTACT_TURN);
-    pg_tip_chord (state, tip, fmin (CHORD * h, straight), from, e);
+           straight = pg_tip_straight (state->paths, tip, PG_CONTACT_TURN);
+    pg_tip_chord (state->paths, tip, fmin (CHORD * h, straight), from, e);
     *out = (pg_tip_faces){ .nearest = INFINITY };
     for (size_t k = 0; c && c->active && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];

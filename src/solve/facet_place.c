@@ -38,6 +38,7 @@ void facet_place (const break_loop *b, const pg_state *state, size_t tip, double
                   facet_candidate *out)
 {
     const pg_problem *p = b->system.problem;
+    const pg_ground g = pg_problem_ground (p);
     const pg_tip_field *f = &b->growth->field[tip];
     double e[3] = { cos (angle), sin (angle), 0 }, length = facet_length (b->growth, f), place[3] = { 0 };
     size_t n;
@@ -46,7 +47,7 @@ void facet_place (const break_loop *b, const pg_state *state, size_t tip, double
     *out = (facet_candidate) { .tip = (long) tip, .slides = slides };
     for (int k = 0; k < 3; k++) out->to[k] = f->x[k] + length * e[k];
     if (path) facet_on_path (path, n, f->x, f->e, length, out->to, &ends);
-    double ahead = pg_tip_ahead (p, state, tip, e, length + to_surface * f->h, &what);
+    double ahead = pg_tip_ahead (&g, state->paths, tip, e, length + to_surface * f->h, &what);
     int straight = (what == PG_MEETS_SURFACE && ahead <= length + to_surface * f->h)
                    || (what == PG_MEETS_CRACK && ahead <= length + to_crack * f->h);
     if (straight) for (int k = 0; k < 3; k++) out->to[k] = f->x[k] + ahead * e[k];
@@ -60,11 +61,12 @@ void facet_place (const break_loop *b, const pg_state *state, size_t tip, double
 int facet_way_out (const break_loop *b, const pg_state *state, size_t tip, facet_candidate *out)
 {
     const pg_problem *p = b->system.problem;
+    const pg_ground g = pg_problem_ground (p);
     const pg_tip_field *f = &b->growth->field[tip];
     double limit = facet_length (b->growth, f) + to_surface * f->h, place[2];
     int what;
     *out = (facet_candidate) { .tip = (long) tip, .close = 1 };
-    double d = pg_tip_nearest (p, state, tip, limit, place, &what);
+    double d = pg_tip_nearest (&g, state->paths, tip, limit, place, &what);
     double ahead = (place[0] - f->x[0]) * f->e[0] + (place[1] - f->x[1]) * f->e[1];
     if (what == PG_MEETS_NOTHING || ahead < -0.2 * d) return 0;
     out->to[0] = place[0], out->to[1] = place[1];

@@ -253,7 +253,7 @@ static void wings_leave_a_closed_crack (void **state)
                        : fabs (s->energy_friction) < 1e-12 * s->energy_external);
         for (int i = 0; i < 2; i++) {                  /* they end along the load */
             double e[2], from[2];
-            pg_tip_chord (r.state, (size_t) i, 0.25, from, e);
+            pg_tip_chord (r.state->paths, (size_t) i, 0.25, from, e);
             assert_true (fabs (e[1]) > 0.85);
         }
         clear (&r);

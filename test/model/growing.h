@@ -5,13 +5,13 @@
 #define PERIGAL_TEST_GROWING_H
 #include "scenes.h"
 
-typedef struct { built b; const pg_problem *p; pg_state *s; pg_changes cut; } growing;
+typedef struct { built b; const pg_problem *p; pg_ground ground; pg_state *s; pg_changes cut; } growing;
 
 /* A state with paths or surfaces, whatever the criterion. */
 static inline growing begin (const char *text)
 {
     growing g = { .b = build (text) };
-    g.p = g.b.problem;
+    g.p = g.b.problem, g.ground = pg_problem_ground (g.p);
     check_ok (pg_state_create (&g.s, g.p, pg_problem_unknowns (g.p)));
     if (g.p->cloud.dim == 3 && !g.s->surfaces) check_ok (pg_crack_surfaces_create (&g.s->surfaces, g.p));
     return g;

@@ -64,8 +64,8 @@ static void strokes_do_not_matter (void **state)
     for (int k = 1; k <= 6; k++) grow (&a, 0, 0.33 - k * dx, 0.22 - k * dy, 0);
     grow (&b, 0, 0.33 - 6 * dx, 0.22 - 6 * dy, 0), grow (&b, 1, 0.57 + 6 * dx, 0.28 + 6 * dy, 0);
     assert_memory_equal (a.s->alive, b.s->alive, a.s->nbond);
-    assert_true (pg_tip_behind (a.s, 0, 10) > 0.6 && pg_tip_behind (a.s, 0, 0.1) == 0.1);
-    check_relative (pg_tip_behind (a.s, 1, 10), hypot (0.24, 0.06) + 12 * hypot (dx, dy), 1e-12);
+    assert_true (pg_tip_behind (a.s->paths, 0, 10) > 0.6 && pg_tip_behind (a.s->paths, 0, 0.1) == 0.1);
+    check_relative (pg_tip_behind (a.s->paths, 1, 10), hypot (0.24, 0.06) + 12 * hypot (dx, dy), 1e-12);
     end (&a), end (&b);
 }
 
@@ -116,7 +116,7 @@ static void a_closed_path_severs_the_body (void **state)
     growing g = begin (CRACKED (EDGE, ""));
     double y = 0.26;
     int what;
-    check_relative (pg_tip_ahead (g.p, g.s, 0, (double[]) { 1, 0 }, 10, &what), 0.58, 1e-12);
+    check_relative (pg_tip_ahead (&g.ground, g.s->paths, 0, (double[]) { 1, 0 }, 10, &what), 0.58, 1e-12);
     assert_int_equal (what, PG_MEETS_SURFACE);
     for (int k = 1; k <= 5; k++) y += 0.01, grow (&g, 0, 0.42 + 0.1 * k, y, 0);
     grow (&g, 0, 1, y, 1);
@@ -145,7 +145,7 @@ static void points_beyond_the_surface_are_severed (void **state)
                        "cells: staircase\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n"
                        "cracks: [{from: [-0.6, 0.03], to: [0.1, 0.03]}]\n");
     size_t outside = 0;
-    grow (&g, 0, 0.1 + pg_tip_ahead (g.p, g.s, 0, (double[]) { 1, 0 }, 1, NULL), 0.03, 1);
+    grow (&g, 0, 0.1 + pg_tip_ahead (&g.ground, g.s->paths, 0, (double[]) { 1, 0 }, 1, NULL), 0.03, 1);
     check_relative (g.s->paths->tip[0].x[0], sqrt (0.25 - 0.0009), 1e-12);
     check_mask (&g, 1);
     const pg_family *f = &g.p->rows[PG_NODES].family;
@@ -165,20 +165,20 @@ static void tips_know_their_path (void **state)
     (void) state;
     growing g = begin (CRACKED (EDGE, ""));
     double from[2], e[2];
-    pg_tip_chord (g.s, 0, 0.1, from, e);
+    pg_tip_chord (g.s->paths, 0, 0.1, from, e);
     check_absolute (from[0], 0.32, 1e-13), check_absolute (e[0], 1, 1e-13), check_absolute (e[1], 0, 1e-13);
-    assert_true (isinf (pg_tip_straight (g.s, 0, 0.2)));
+    assert_true (isinf (pg_tip_straight (g.s->paths, 0, 0.2)));
     grow (&g, 0, 0.47, 0.26, 0), grow (&g, 0, 0.50, 0.30, 0);
     grow (&g, 0, 0.53, 0.34, 0), grow (&g, 0, 0.56, 0.38, 0);
-    check_relative (pg_tip_straight (g.s, 0, 0.2), 0.15, 1e-12);
-    assert_true (isinf (pg_tip_straight (g.s, 0, 1)));
-    pg_tip_chord (g.s, 0, 0.075, from, e);
+    check_relative (pg_tip_straight (g.s->paths, 0, 0.2), 0.15, 1e-12);
+    assert_true (isinf (pg_tip_straight (g.s->paths, 0, 1)));
+    pg_tip_chord (g.s->paths, 0, 0.075, from, e);
     check_relative (from[0], 0.515, 1e-12), check_relative (from[1], 0.32, 1e-12);
     check_relative (e[0], 0.6, 1e-12), check_relative (e[1], 0.8, 1e-12);
-    pg_tip_chord (g.s, 0, 0.25, from, e);              /* round the corner */
+    pg_tip_chord (g.s->paths, 0, 0.25, from, e);              /* round the corner */
     check_relative (from[0], 0.37, 1e-12), check_relative (from[1], 0.26, 1e-12);
     check_relative (e[1] / e[0], 0.12 / 0.19, 1e-12);
-    pg_tip_chord (g.s, 0, 99, from, e);                /* the path's other end */
+    pg_tip_chord (g.s->paths, 0, 99, from, e);                /* the path's other end */
     check_relative (from[0], -0.1, 1e-12);
     end (&g);
 }
@@ -190,25 +190,25 @@ static void what_lies_around_a_tip (void **state)
     double place[2];
     int what;
     assert_int_equal (g.s->paths->ntip, 4);
-    check_relative (pg_tip_ahead (g.p, g.s, 1, (double[]) { 1, 0 }, 1, &what), 0.06, 1e-12);
+    check_relative (pg_tip_ahead (&g.ground, g.s->paths, 1, (double[]) { 1, 0 }, 1, &what), 0.06, 1e-12);
     assert_int_equal (what, PG_MEETS_CRACK);
-    check_relative (pg_tip_ahead (g.p, g.s, 1, (double[]) { 0, 1 }, 1, &what), 0.22, 1e-12);
+    check_relative (pg_tip_ahead (&g.ground, g.s->paths, 1, (double[]) { 0, 1 }, 1, &what), 0.22, 1e-12);
     assert_int_equal (what, PG_MEETS_SURFACE);
-    check_relative (pg_tip_ahead (g.p, g.s, 1, (double[]) { 0, 1 }, 0.2, &what), 0.2, 0);
+    check_relative (pg_tip_ahead (&g.ground, g.s->paths, 1, (double[]) { 0, 1 }, 0.2, &what), 0.2, 0);
     assert_int_equal (what, PG_MEETS_NOTHING);
-    check_relative (pg_tip_nearest (g.p, g.s, 1, 1, place, &what), 0.06, 1e-12);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 1, 1, place, &what), 0.06, 1e-12);
     assert_int_equal (what, PG_MEETS_CRACK);
     check_relative (place[0], 0.63, 1e-12), check_relative (place[1], 0.28, 1e-12);
-    check_relative (pg_tip_nearest (g.p, g.s, 2, 1, place, &what), 0.1, 1e-9);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 2, 1, place, &what), 0.1, 1e-9);
     assert_int_equal (what, PG_MEETS_SURFACE);
     check_absolute (place[0], 0.63, 1e-5), check_absolute (place[1], 0, 1e-9);
-    check_relative (pg_tip_nearest (g.p, g.s, 0, 1, NULL, NULL), 0.22, 1e-9);
-    check_relative (pg_tip_nearest (g.p, g.s, 0, 0.05, NULL, NULL), 0.05, 0);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 0, 1, NULL, NULL), 0.22, 1e-9);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 0, 0.05, NULL, NULL), 0.05, 0);
     end (&g);
     g = begin (CRACKED (INSIDE, ""));                  /* the path's own other tip */
-    check_relative (pg_tip_nearest (g.p, g.s, 1, 1, NULL, NULL), 0.22, 1e-9);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 1, 1, NULL, NULL), 0.22, 1e-9);
     grow (&g, 1, 0.36, 0.26, 0);                       /* folded back: not what a run does */
-    check_relative (pg_tip_nearest (g.p, g.s, 1, 1, NULL, NULL), 0.05, 1e-9);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 1, 1, NULL, NULL), 0.05, 1e-9);
     end (&g);
 }
 
@@ -222,8 +222,10 @@ static void surfaces_of_any_shape (void **state)
                        "to: [0.5, 0.45]}]\n");
     double place[2];
     int what;
-    check_relative (pg_tip_ahead (g.p, g.s, 1, (double[]) { 1, 0 }, 1, &what), 0.2 - sqrt (0.0075), 1e-11);
-    check_relative (pg_tip_nearest (g.p, g.s, 1, 1, place, &what), hypot (0.2, 0.05) - 0.1, 1e-9);
+    check_relative (pg_tip_ahead (&g.ground, g.s->paths, 1, (double[]) { 1, 0 }, 1, &what),
+                    0.2 - sqrt (0.0075), 1e-11);
+    check_relative (pg_tip_nearest (&g.ground, g.s->paths, 1, 1, place, &what), hypot (0.2, 0.05) - 0.1,
+                    1e-9);
     assert_int_equal (what, PG_MEETS_SURFACE);
     assert_true (pg_problem_has_body (g.p, (double[]) { 0.59, 0.5 }));
     assert_false (pg_problem_has_body (g.p, (double[]) { 0.61, 0.5 }));
@@ -413,7 +415,7 @@ static void checkpoints_keep_the_paths (void **state)
                 pg_status status = pg_crack_paths_keep (b.s->paths, b.p, "x", &reader);
                 assert_true (status == PG_OK || status == PG_E_FILE);
                 refused += status == PG_E_FILE;
-                if (status == PG_OK) pg_state_cracks (b.p, b.s), pg_tip_behind (b.s, 0, 1);
+                if (status == PG_OK) pg_state_cracks (b.p, b.s), pg_tip_behind (b.s->paths, 0, 1);
             }
             *v = right;
         }
