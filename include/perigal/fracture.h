@@ -39,11 +39,15 @@ typedef struct {
      * belongs to the vertex, m. */
     double normal[3], tangent[3], length;
     double room;                                       /* distance to what a ring must not hold, m */
-    int    limit;                                      /* PG_ROOM_...: what that is */
-    int    load;                                       /* number of the load that it is, else -1 */
     double modulus;                                    /* E' = E, in plane strain E / (1 - nu^2), Pa */
     /* E' J = K_I^2 + K_II^2 + antiplane K_III^2: 1 / (1 - nu); 0 in the plane */
     double antiplane;
+    double kink[2];                                    /* m; kinked, below */
+    /* Of facets of that length (m; 0: none) that do not exist yet, at those angles from e: K_I and K_II at
+     * their end, sum_a l_a trial_K[i][m][a]. */
+    double trial, trial_angle[PG_TIP_TRIALS], trial_K[PG_TIP_TRIALS][2][2];
+    int    limit;                                      /* PG_ROOM_...: what ends the room */
+    int    load;                                       /* number of the load that it is, else -1 */
     /* 1: at the end of a front on the surface of the body, from the next vertices: the surface has a
      * singularity of its own */
     int    extrapolated;
@@ -55,10 +59,6 @@ typedef struct {
      * near .. wide; K is by reciprocity with the weight functions of the polyline, J = (K_I^2 + K_II^2) / E',
      * T is not known, and e runs along the last piece. */
     int    kinked;
-    double kink[2];                                    /* m */
-    /* Of facets of that length (m; 0: none) that do not exist yet, at those angles from e: K_I and K_II at
-     * their end, sum_a l_a trial_K[i][m][a]. */
-    double trial, trial_angle[PG_TIP_TRIALS], trial_K[PG_TIP_TRIALS][2][2];
 } pg_tip_field;
 
 /* A piece of crack whose faces press on each other: middle, unit normal, length (m), and the stresses that it
@@ -86,27 +86,15 @@ void      pg_tip_limit_words (const pg_problem *p, const pg_tip_field *f, char *
 /* Measures tip number `tip` of the state. d: nfield fields of coefficients (ndof each). t: load factor, or
  * time (s), of each, for body forces; the second field has those of t[1] less those of t[0], as it has with
  * affine loads for t = 0, 1. Where state->d itself is the one field and is in motion, kinetic terms are
- * added. near = NAN: there is no room for a ring, nothing else but x, e, h and room is known. */
+ * added. near = NAN: there is no room for a ring, nothing else but x, e, h and room is known.
+ * faces: how they may touch (NULL: they do not). The uniform field that carries the same stress across them
+ * is subtracted: what is left has free faces behind the tip, and its K_II is that of the tip; rings of an
+ * open tip end before the next closed piece, whose tractions are in no integral of theirs; the ring around a
+ * kink has the tractions of the pieces on the straight crack behind it. facet: length of trial facets at
+ * whose end K is asked for, m (0: it is not). */
 pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
-                          const double *t);
-
-/* Measures tip number `tip` as pg_tip_measure does, where its faces may touch (faces NULL: they do not).
- * facet: length of trial facets at whose end K is asked for, m (0: it is not). The uniform field that carries
- * the same stress across the faces is subtracted: what is left has free faces behind the tip, and its K_II is
- * that of the tip; rings of an open tip end before the next closed piece, whose tractions are in no integral
- * of theirs; the ring around a kink has the tractions of the pieces on the straight crack behind it. */
-pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
-                                void *self, const pg_state *state, size_t tip, int nfield,
-                                const double *const *d, const double *t, const pg_tip_faces *faces,
-                                double facet);
-
-/* Measures a front in space, number `front` of those of the state (pg_fronts_of_state): out has a field for
- * each of its vertices, smoothed once along the front. d, t as above. near = NAN at a vertex without room for
- * a tube; near < 3 h: the tube there is thinner than it should be (room says by how much). */
-pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
-                            const pg_state *state, size_t front, int nfield, const double *const *d,
-                            const double *t);
+                          const double *t, const pg_tip_faces *faces, double facet);
 
 /* What the faces behind a vertex of a front do to each other, in equilibria with contact. */
 typedef struct {
@@ -116,12 +104,15 @@ typedef struct {
     int    closed;                                     /* 1: they press on each other behind the vertex */
     double nearest;  /* distance from the vertex to the next piece that is closed, m; INFINITY: none */
 } pg_front_faces;
-/* Measures a front (pg_front_measure) where faces may touch; faces: of each vertex what they do (NULL: they
- * do not). As with tips the uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J
- * of K_II and K_III, T is not known; tubes around an open one end before the next closed piece. */
-pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
-                                  void *self, const pg_state *state, size_t front, int nfield,
-                                  const double *const *d, const double *t, const pg_front_faces *faces);
+/* Measures a front in space, number `front` of those of the state (pg_fronts_of_state): out has a field for
+ * each of its vertices, smoothed once along the front. d, t as above. near = NAN at a vertex without room for
+ * a tube; near < 3 h: the tube there is thinner than it should be (room says by how much). faces: of each
+ * vertex what they do (NULL: they do not touch). As with tips the uniform stress that they carry is
+ * subtracted; a closed vertex has K_I = 0 and J of K_II and K_III, T is not known; tubes around an open one
+ * end before the next closed piece. */
+pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
+                            const pg_state *state, size_t front, int nfield, const double *const *d,
+                            const double *t, const pg_front_faces *faces);
 
 /* The sums for the factors l (nfield numbers): J (J/m^2), K (3, Pa m^(1/2)) and T (Pa); outputs may be
  * NULL. */

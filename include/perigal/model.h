@@ -547,8 +547,6 @@ pg_status pg_crack_grow  (pg_state *state, const pg_problem *problem, size_t tip
 enum { PG_START_SLIDES = 4 };
 pg_status pg_crack_start (pg_state *state, const pg_problem *problem, const double *from, const double *to,
                           int open, pg_changes *cut);
-/* The tip grows no more, and its path cuts to its end. */
-pg_status pg_tip_close   (pg_state *state, const pg_problem *problem, size_t tip, pg_changes *cut);
 /* At the start of a run: the path of a tip that has not grown cuts only from `offset` (m) behind it on, if
  * that is more than so far and no more than a share of the path; bonds that it cuts no more live again. */
 void      pg_tip_draw_back (pg_state *state, const pg_problem *problem, size_t tip, double offset);
@@ -603,7 +601,8 @@ const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *s
  * put on the surface of the body; vertices are distributed anew where they lie too far apart or too close.
  * All live bonds that the new triangles cut, of every bond set, are added to `cut`, which stays ascending
  * and names each once; their alive bits are left to the caller. PG_E_USAGE: no such open front, nothing
- * moves. Nothing is changed by a call that fails, except `cut`. */
+ * moves. Nothing is changed by a call that fails, except `cut`. d, theta NULL: the front grows no more, and
+ * its crack cuts to its end. */
 pg_status pg_front_advance (pg_state *state, const pg_problem *problem, size_t front, const double *d,
                             const double *theta, pg_changes *cut);
 /* A unit vector in the plane across a unit normal, which follows from that plane and the axes of the lattice:
@@ -613,8 +612,6 @@ void      pg_plane_axis (const double *normal, double *along);
  * outline lies inside the body is a front. */
 pg_status pg_surface_start (pg_state *state, const pg_problem *problem, size_t n, const double *x,
                             const double *normal, pg_changes *cut);
-/* The front grows no more, and its crack cuts to its end. */
-pg_status pg_front_close   (pg_state *state, const pg_problem *problem, size_t front, pg_changes *cut);
 
 /* ---- costs of linear solves, forces on shape functions ------------------------------------------------- */
 typedef struct {

@@ -378,14 +378,7 @@ done:
 
 pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
                             const pg_state *state, size_t front, int nfield, const double *const *d,
-                            const double *t)
-{
-    return pg_front_measure_faces (out, p, force, self, state, front, nfield, d, t, NULL);
-}
-
-pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
-                                  void *self, const pg_state *state, size_t front, int nfield,
-                                  const double *const *d, const double *t, const pg_front_faces *faces)
+                            const double *t, const pg_front_faces *faces)
 {
     pg_status status = PG_OK;
     size_t nfront;

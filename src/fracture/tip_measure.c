@@ -37,15 +37,7 @@ static void take_sums (pg_tip_field *out, const front_sums *sums, const measurin
 
 pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
-                          const double *t)
-{
-    return pg_tip_measure_faces (out, p, force, self, state, tip, nfield, d, t, NULL, 0);
-}
-
-pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
-                                void *self, const pg_state *state, size_t tip, int nfield,
-                                const double *const *d, const double *t, const pg_tip_faces *touch,
-                                double facet)
+                          const double *t, const pg_tip_faces *touch, double facet)
 {
     pg_status status = PG_OK;
     front_places rings = { 0 }, faces = { 0 };

@@ -148,13 +148,6 @@ done:
     return status;
 }
 
-pg_status pg_tip_close (pg_state *s, const pg_problem *p, size_t tip, pg_changes *cut)
-{
-    static const double nowhere[3] = { 0 };
-    int there = s->paths && tip < s->paths->ntip;
-    return pg_crack_grow (s, p, tip, there ? s->paths->tip[tip].x : nowhere, 1, cut);
-}
-
 void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offset)
 {
     size_t dim = (size_t) p->dim;
@@ -207,11 +200,6 @@ pg_status pg_front_advance (pg_state *state, const pg_problem *p, size_t front, 
     pg_status status = copy_surfaces (&fresh, state);
     if (status == PG_OK) status = surfaces_advance (fresh, &g, front, d, theta);
     return take_surfaces (&fresh, state, p, status, cut);
-}
-
-pg_status pg_front_close (pg_state *state, const pg_problem *p, size_t front, pg_changes *cut)
-{
-    return pg_front_advance (state, p, front, NULL, NULL, cut);
 }
 
 pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, const double *x,

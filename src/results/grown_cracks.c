@@ -103,7 +103,7 @@ static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_
     if (known || !r->tips.measuring || !t->open) goto done;
     pg_tip_faces faces;
     int touch = pg_solver_tip_faces (r->solver, state, tip, &faces);
-    PG_TRY (pg_tip_measure_faces (&field, r->problem, force, self, state, tip, 1, &d, &time,
+    PG_TRY (pg_tip_measure (&field, r->problem, force, self, state, tip, 1, &d, &time,
                                   touch ? &faces : NULL, 0));
     *out = pg_tip_values_of (t->id, 0, t->x, &field, 1, &one);
 done:
@@ -123,7 +123,7 @@ static pg_status measure_front (pg_result *r, const pg_state *state, size_t fron
     PG_ALLOC (field, f->n);
     PG_ALLOC (faces, f->n);
     int touch = pg_solver_front_faces (r->solver, state, front, faces);
-    PG_TRY (pg_front_measure_faces (field, r->problem, force, self, state, front, 1, &d, &time,
+    PG_TRY (pg_front_measure (field, r->problem, force, self, state, front, 1, &d, &time,
                                     touch ? faces : NULL));
     PG_GROW (t->value, t->cap_value, t->nvalue + f->n);
     for (size_t i = 0; i < f->n; i++)

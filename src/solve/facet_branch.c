@@ -28,8 +28,10 @@ int facet_branches (const break_loop *b, const pg_state *state, size_t i)
     const pg_tip_field *f = &g->field[i];
     const pg_criterion *c = b->system.problem->criterion;
     size_t n;
+    int slides;
     if (!b->system.options->branching || c->type->path (c, &n) || isnan (f->near)) return 0;
-    if (f->closed || facet_slides (b, state, i, 1)) return 0;          /* it opens, or it does not branch */
+    facet_judge (b, state, i, 1, NULL, &slides);
+    if (f->closed || slides) return 0;                 /* it opens, or it does not branch */
     return r->steady <= 0.5 && f->wide >= least_ring * f->h && state->paths->tip[i].grown >= least_way * f->h;
 }
 

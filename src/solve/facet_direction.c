@@ -178,17 +178,19 @@ static double along_path (const view *v, const double *path, size_t n, double *a
 }
 
 /* ---- a tip --------------------------------------------------------------------------------------------- */
-/* facet_judge, with how: 1: it slides. */
-static double judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle,
-                     int *slide)
+double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle,
+                    int *slide)
 {
     const pg_problem *p = b->system.problem;
     const facet_growth *g = b->growth;
     const pg_tip_field *f = &g->field[tip];
     view v = { .b = b, .field = f, .length = facet_length (g, f) };
-    double l[2], T, theta = 0, slip = 0;
+    double l[2], T, theta = 0, slip = 0, spare;
+    int unused;
     size_t n;
     const double *path = p->criterion->type->path (p->criterion, &n);
+    if (!angle) angle = &spare;
+    if (!slide) slide = &unused;
     *angle = 0, *slide = 0;
     if (!state->paths->tip[tip].open || isnan (f->near)) return 0;
     pg_tip_combine (f, facet_factors (g, factor, l), l, &v.J, v.K, &T);
@@ -199,18 +201,4 @@ static double judge (const break_loop *b, const pg_state *state, size_t tip, dou
     if (sliding > top) top = sliding, theta = slip, *slide = 1;
     *angle = atan2 (f->e[1], f->e[0]) + theta;
     return top;
-}
-
-double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle)
-{
-    int slide;
-    return judge (b, state, tip, factor, angle, &slide);
-}
-
-int facet_slides (const break_loop *b, const pg_state *state, size_t tip, double factor)
-{
-    double angle;
-    int slide;
-    judge (b, state, tip, factor, &angle, &slide);
-    return slide;
 }

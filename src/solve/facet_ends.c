@@ -6,7 +6,6 @@
 #include "event_stepping.h"
 #include "facet_growth.h"
 #include "front_growth.h"
-#include "trial_facet.h"
 #include <math.h>
 
 /* 1: nothing judges tip i, which takes energy. What closed faces hide may come back, and does not count. */
@@ -33,18 +32,32 @@ static int overlaps (const break_loop *b, size_t i, double factor)
     return K[0] < 0 && fabs (K[0]) > 1e-3 * fabs (K[1]);
 }
 
+/* Open tips that nothing judges, or fronts that show nothing anywhere; *open: of how many. */
+static long count_unjudged (const break_loop *b, const pg_state *state, double factor, long *open)
+{
+    const facet_growth *g = b->growth;
+    const pg_crack_paths *paths = state->paths;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
+    long n = 0;
+    for (size_t i = 0; paths && i < paths->ntip; i++) {
+        if (!paths->tip[i].open) continue;
+        ++*open;
+        n += i < g->ntip && (is_lost (b, state, i) || overlaps (b, i, factor));
+    }
+    for (size_t k = 0; g->fronts && k < nfront; k++) {
+        *open += front[k].open != 0;
+        n += k < g->fronts->nfront && front[k].open && g->fronts->blind[k];
+    }
+    return n;
+}
+
 long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
 {
     const facet_growth *g = b->growth;
-    long n = 0, open = 0;
-    if (!g) return 0;
-    if (b->system.problem->dim == 3) return fronts_unjudged (b, state);
-    if (!state->paths) return 0;
-    for (size_t i = 0; i < state->paths->ntip; i++) {
-        open += state->paths->tip[i].open != 0;
-        if (i < g->ntip && state->paths->tip[i].open && (is_lost (b, state, i) || overlaps (b, i,
-                                                                                            factor))) n++;
-    }
+    long open = 0;
+    if (!g || (!state->paths && !g->fronts)) return 0;
+    long n = count_unjudged (b, state, factor, &open);
     /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
     if (open && g->ntip == 0) return g->unjudged;
     /* where cracks have ended and none can begin nobody looks at what is left of the body */

@@ -131,11 +131,11 @@ static void doubt_release (break_loop *b, const pg_state *state, size_t i, doubl
     static const double doubtful = 0.1, decisive = 0.5, nothing = 1e-6;
     facet_growth *g = b->growth;
     const pg_tip_field *f = &g->field[i];
-    double l[2], angle;
+    double l[2];
     int n = facet_factors (g, 1, l);
     double off = pg_tip_uncertainty (f, n, l);
     if (g->said & FACET_SAID_UNKNOWN || g->moving || !(off > doubtful) || !(top > nothing)
-        || !(facet_judge (b, state, i, 1, &angle) >= decisive * top))
+        || !(facet_judge (b, state, i, 1, NULL, NULL) >= decisive * top))
         return;
     pg_statistics_warn (b->system.report,
                         "the energy release rate of crack tip %ld at (%.6g, %.6g) m is known to +-%.2g %% "
@@ -246,7 +246,7 @@ static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, co
     pg_tip_faces faces;
     double facet = g->length > 0 ? g->length : pg_problem_spacing_at (s->problem, state->paths->tip[i].x);
     if (s->contact) contact_at_tip (s, state, i, g->nfield, &faces);
-    PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
+    PG_TRY (pg_tip_measure (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
                                   s->contact ? &faces : NULL, facet));
     if (s->contact) facet_settle_energy (f, g->nfield);
     drop_nan (s, f, state->paths->tip[i].id, g->nfield);
@@ -326,9 +326,9 @@ double facet_trial_utilisation (const facet_growth *g, const facet_candidate *c,
 double facet_utilisation (const break_loop *b, const pg_state *state, double factor)
 {
     const facet_growth *g = b->growth;
-    double top = in_space (b) ? fronts_plan (b, state, factor) : 0, angle;
+    double top = in_space (b) ? fronts_plan (b, state, factor) : 0;
     for (size_t i = 0; i < g->ntip && !in_space (b); i++)
-        top = fmax (top, facet_judge (b, state, i, factor, &angle));
+        top = fmax (top, facet_judge (b, state, i, factor, NULL, NULL));
     for (size_t k = 0; k < g->ntrial; k++)
         top = fmax (top, facet_trial_utilisation (g, &g->trial[k], factor));
     return top;
@@ -339,14 +339,14 @@ pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
 {
     pg_status status = PG_OK;
     const facet_growth *g = s->break_loop.growth;
-    double l[2], angle;
+    double l[2];
     int n = facet_factors (g, factor, l);
     if (in_space (&s->break_loop)) return fronts_show (s, state, factor);
     for (size_t i = 0; i < g->ntip; i++) {
         const pg_tip_field *f = &g->field[i];
         if (isnan (f->near)) continue;
         pg_tip_values v = pg_tip_values_of (state->paths->tip[i].id, 0, f->x, f, n, l);
-        v.utilisation = pow (facet_judge (&s->break_loop, state, i, factor, &angle), 2);
+        v.utilisation = pow (facet_judge (&s->break_loop, state, i, factor, NULL, NULL), 2);
         double trust = facet_trust (g, i);
         v.J *= trust, v.utilisation *= trust;
         for (int m = 0; m < 3; m++) v.K[m] *= sqrt (trust);
@@ -505,8 +505,9 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     }
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
-        if (facet_judge (b, state, i, factor, &angle) < least) continue;
-        facet_place (b, state, i, angle, facet_slides (b, state, i, factor), &c);
+        int slides;
+        if (facet_judge (b, state, i, factor, &angle, &slides) < least) continue;
+        facet_place (b, state, i, angle, slides, &c);
         PG_TRY (grow_one (b, state, &c));
     }
     PG_TRY (grow_trials (b, state, factor, least));

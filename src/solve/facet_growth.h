@@ -12,14 +12,14 @@
  * displacement sum_a l_a d_a of the fields at hand (facet_factors). */
 typedef struct {
     long   tip;                                        /* the tip that it moves; -1: it begins a new crack */
-    double from[3], to[3];                             /* m; `from` of a new crack alone */
-    /* in space, of a new crack: a disc about `from` with the unit normal `to`, one unit vector in its plane
-     * */
-    double radius, across[3];
     /* of a new crack: bit 0: a tip at `from`, bit 1: at `to` */
     int    open;
     int    close;                                      /* of a tip: it ends here, in the surface or a crack */
     int    slides;  /* 1: it takes the energy of sliding; a new crack: its faces touch */
+    double from[3], to[3];                             /* m; `from` of a new crack alone */
+    /* in space, of a new crack: a disc about `from` with the unit normal `to`, one unit vector in its plane
+     * */
+    double radius, across[3];
     double energy;                                     /* what it takes: energy per area times its area, J */
     /* what it sets free: sum_ab l_a l_b release[a][b], J */
     double release[2][2];
@@ -30,10 +30,10 @@ typedef struct {
  * none at the end of its length. */
 typedef struct {
     long    tip;                                       /* whose way counts */
-    double  way, length;  /* way of the tip since it was cut; over which it opens, m */
-    double  energy;                                    /* what it takes in all, J */
     /* 1: bonds that it cut are those of no other tip, so that what it dissipates is its tip's. */
     int     alone;
+    double  way, length;  /* way of the tip since it was cut; over which it opens, m */
+    double  energy;                                    /* what it takes in all, J */
     /* When it was last accounted for: way of the tip, m; force times displacement, J; energy set free by its
      * cut that was not counted yet, J. */
     double  way0, product, drop;
@@ -219,10 +219,10 @@ static inline int facet_factors (const facet_growth *g, double factor, double l[
 
 /* ---- facet_direction.c --------------------------------------------------------------------------------- */
 /* Square root of the energy that tip i sets free over what the material takes, at a load factor, in the best
- * direction (rad from the x axis), or along the imposed path. 0: it does not grow. */
-double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle);
-/* 1: that facet slides: it takes the energy of sliding. */
-int    facet_slides (const break_loop *b, const pg_state *state, size_t tip, double factor);
+ * direction (rad from the x axis), or along the imposed path; 0: it does not grow. slides: 1: the facet
+ * slides, and takes the energy of sliding. Outputs may be NULL. */
+double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle,
+                    int *slides);
 /* Length of the next facet of a tip, m. */
 double facet_length (const facet_growth *g, const pg_tip_field *field);
 /* What a crack takes at x in a direction; 0: it cannot grow there (failure: never, exclude). */

@@ -186,15 +186,12 @@ static pg_status keep_one (break_loop *b, size_t i, const pg_keeper *k)
     facet_hold *h = &g->hold[i];
     char name[64];
     long count[3] = { h->tip, (long) h->n, h->alone };
-    double number[6] = { h->way, h->length, h->energy, h->way0, h->product, h->drop };
     PG_TRY (k->counts (k->context, named (name, sizeof name, "opening", i), 3, count));
-    PG_TRY (k->numbers (k->context, named (name, sizeof name, "opened", i), 6, number));
+    PG_TRY (k->numbers (k->context, named (name, sizeof name, "opened", i), 6, &h->way));  /* up to drop */
     PG_KEEP_BOUND (k, "the tip of a facet that opens", count[0], 0, (long) g->nrun - 1);
     PG_KEEP_BOUND (k, "the unknowns that a facet holds", count[1], 0, (long) b->system.ndof);
     if (k->reading) {
-        *h = (facet_hold) { .tip = count[0], .way = number[0], .length = number[1],
-                             .energy = number[2], .alone = count[2] != 0, .way0 = number[3],
-                             .product = number[4], .drop = number[5] };
+        h->tip = count[0], h->alone = count[2] != 0;
         PG_ALLOC (h->unknown, (size_t) count[1] + 1);
         PG_ALLOC (h->force, (size_t) count[1] + 1);
         h->n = (size_t) count[1];

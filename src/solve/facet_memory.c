@@ -6,12 +6,11 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Runs of numbers between the whole numbers of pg_tip_field. */
+/* The numbers of pg_tip_field come before its whole numbers, those of facet_candidate behind them. */
 enum {
-    FIRST = offsetof (pg_tip_field, limit) / sizeof (double),
-    LAST = (sizeof (pg_tip_field) - offsetof (pg_tip_field, kink)) / sizeof (double),
-    NUMBERS = FIRST + 2 + LAST,
-    COUNTS = 6
+    NUMBERS = offsetof (pg_tip_field, limit) / sizeof (double),
+    COUNTS = 6,
+    TRIAL_NUMBERS = (sizeof (facet_candidate) - offsetof (facet_candidate, from)) / sizeof (double)
 };
 
 static void give_field (void *context, size_t i, long *count, double *number)
@@ -19,9 +18,7 @@ static void give_field (void *context, size_t i, long *count, double *number)
     const pg_tip_field *f = (const pg_tip_field *) context + i;
     const long whole[COUNTS] = { f->limit, f->load, f->extrapolated, f->interface, f->closed, f->kinked };
     memcpy (count, whole, sizeof whole);
-    memcpy (number, f->J, FIRST * sizeof *number);
-    number[FIRST] = f->modulus, number[FIRST + 1] = f->antiplane;
-    memcpy (number + FIRST + 2, f->kink, LAST * sizeof *number);
+    memcpy (number, f, NUMBERS * sizeof *number);
 }
 
 static pg_status take_field (void *context, size_t i, const long *count, const double *number,
@@ -31,11 +28,9 @@ static pg_status take_field (void *context, size_t i, const long *count, const d
     pg_tip_field *f = (pg_tip_field *) context + i;
     PG_KEEP_BOUND (k, "what ends the room of a tip", count[0], PG_ROOM_FREE, PG_ROOM_FACES);
     for (int m = 2; m < COUNTS; m++) PG_KEEP_BOUND (k, "what is known of a tip", count[m], 0, 1);
-    memcpy (f->J, number, FIRST * sizeof *number);
+    memcpy (f, number, NUMBERS * sizeof *number);
     f->limit = (int) count[0], f->load = (int) count[1], f->extrapolated = (int) count[2];
     f->interface = (int) count[3], f->closed = (int) count[4], f->kinked = (int) count[5];
-    f->modulus = number[FIRST], f->antiplane = number[FIRST + 1];
-    memcpy (f->kink, number + FIRST + 2, LAST * sizeof *number);
 done:
     return status;
 }
@@ -44,27 +39,21 @@ static void give_trial (void *context, size_t i, long *count, double *number)
 {
     const facet_candidate *c = &((const facet_growth *) context)->trial[i];
     const long whole[4] = { c->tip, c->open, c->close, c->slides };
-    const double real[17] = {
-        c->from[0], c->from[1], c->from[2], c->to[0], c->to[1], c->to[2], c->radius, c->across[0],
-        c->across[1], c->across[2], c->energy, c->release[0][0], c->release[0][1], c->release[1][0],
-        c->release[1][1], c->stress[0], c->stress[1]
-    };
-    memcpy (count, whole, sizeof whole), memcpy (number, real, sizeof real);
+    memcpy (count, whole, sizeof whole), memcpy (number, c->from, TRIAL_NUMBERS * sizeof *number);
 }
 
-static pg_status take_trial (void *context, size_t i, const long *count, const double *n, const pg_keeper *k)
+static pg_status take_trial (void *context, size_t i, const long *count, const double *number,
+                             const pg_keeper *k)
 {
     pg_status status = PG_OK;
     facet_growth *g = context;
+    facet_candidate *c = &g->trial[i];
     PG_KEEP_BOUND (k, "the tip of a trial facet", count[0], -1, (long) g->ntip - 1);
     PG_KEEP_BOUND (k, "the tips of a new crack", count[1], 0, 3);
     for (int m = 2; m < 4; m++) PG_KEEP_BOUND (k, "what a trial facet does", count[m], 0, 1);
-    g->trial[i] = (facet_candidate) {
-        .tip = count[0], .from = { n[0], n[1], n[2] }, .to = { n[3], n[4], n[5] }, .radius = n[6],
-        .across = { n[7], n[8], n[9] }, .open = (int) count[1], .close = (int) count[2],
-        .slides = (int) count[3], .energy = n[10], .release = { { n[11], n[12] }, { n[13], n[14] } },
-        .stress = { n[15], n[16] }
-    };
+    *c = (facet_candidate) { .tip = count[0], .open = (int) count[1], .close = (int) count[2],
+                             .slides = (int) count[3] };
+    memcpy (c->from, number, TRIAL_NUMBERS * sizeof *number);
 done:
     return status;
 }
@@ -109,7 +98,7 @@ pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_ke
     }
     PG_TRY (keep_fields (b, state, k));
     const pg_records offered = { .count_name = "facets.trial", .number_name = "facets.trial_numbers",
-                                 .n = g->ntrial, .counts = 4, .numbers = 17, .give = give_trial,
+                                 .n = g->ntrial, .counts = 4, .numbers = TRIAL_NUMBERS, .give = give_trial,
                                  .take = take_trial, .context = g };
     if (g->ntrial) PG_TRY (pg_keep_records (k, &offered));
     if (k->reading) g->fresh = 1;

@@ -155,7 +155,8 @@ done:
 
 /* Where the next facet of tip i goes; 0: nowhere. A tip that runs and has lost its room goes straight out,
  * and rests where there is no way out near. */
-static int next_facet (break_loop *b, const pg_state *state, size_t i, double angle, facet_candidate *c)
+static int next_facet (break_loop *b, const pg_state *state, size_t i, double angle, int slides,
+                       facet_candidate *c)
 {
     facet_growth *g = b->growth;
     facet_run *r = &g->run[i];
@@ -172,8 +173,7 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     double ahead = atan2 (f->e[1], f->e[0]), turn = remainder (angle - ahead, 2 * acos (-1));
     size_t n;
     int free = !b->system.problem->criterion->type->path (b->system.problem->criterion, &n);
-    facet_place (b, state, i, r->length > 0 && free ? ahead + part_of_turn * turn : angle,
-                 facet_slides (b, state, i, 1), c);
+    facet_place (b, state, i, r->length > 0 && free ? ahead + part_of_turn * turn : angle, slides, c);
     return 1;
 }
 
@@ -196,7 +196,7 @@ int facet_due (break_loop *b, double dt)
 /* Tip i was measured: its speed, and what it cuts where it has come to the end of its facet. dt: since the
  * last look. *any: something was cut at this look, so that the forces before the next cut are at hand. */
 static pg_status run_tip (break_loop *b, pg_state *state, size_t i, double t, const double *d, double dt,
-                          double share, double angle, int *any)
+                          double share, double angle, int slides, int *any)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
@@ -215,7 +215,7 @@ static pg_status run_tip (break_loop *b, pg_state *state, size_t i, double t, co
         PG_TRY (facet_fork (b, state, i, t, d, &forks));
         *any |= forks;
     }
-    if (forks || !next_facet (b, state, i, angle, &c)) goto done;
+    if (forks || !next_facet (b, state, i, angle, slides, &c)) goto done;
     if (!*any) PG_TRY (facet_hold_before (b, t, d));
     *any = 1;
     PG_TRY (cut (b, state, &c, t, d));
@@ -254,10 +254,11 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
     size_t n = g->ntip;
     PG_TRY (facet_make_room (g, n));
     for (size_t i = 0; i < n; i++) {
-        double angle, over = facet_judge (b, state, i, 1, &angle);
+        int slides;
+        double angle, over = facet_judge (b, state, i, 1, &angle, &slides);
         *top = fmax (*top, over);
         if (state->paths->tip[i].open)
-            PG_TRY (run_tip (b, state, i, t, d, dt, over * over, angle, any));
+            PG_TRY (run_tip (b, state, i, t, d, dt, over * over, angle, slides, any));
     }
     g->unjudged = facet_unjudged (b, state, 1);
     facet_hold_drop (b, 0);
@@ -301,16 +302,8 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
     PG_KEEP_BOUND (k, "the tips that run", n, 0, (long) b->system.problem->first_bond[PG_BOND_SETS]);
     if (k->reading) PG_GROW (g->run, g->cap_run, (size_t) n);
     g->nrun = (size_t) n;
-    for (size_t i = 0; i < g->nrun; i++) {
-        facet_run *r = &g->run[i];
-        char name[64];
-        double number[11] = { r->speed, r->g,     r->mean,     r->steady, r->way,  r->length,
-                              r->least, r->straight, r->come, r->taken,  r->shown };
-        snprintf (name, sizeof name, "facets.speed.%zu", i);
-        PG_TRY (k->numbers (k->context, name, 11, number));
-        *r = (facet_run) { number[0], number[1], number[2], number[3], number[4], number[5],
-                           number[6], number[7], number[8], number[9], number[10] };
-    }
+    const size_t each = sizeof (facet_run) / sizeof (double);          /* it is numbers alone */
+    if (n) PG_TRY (k->numbers (k->context, "facets.speed", each * g->nrun, &g->run->speed));
     double last[2] = { g->since, g->top };
     PG_TRY (k->numbers (k->context, "facets.since", 2, last));
     g->since = last[0], g->top = last[1];

@@ -261,7 +261,7 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
             PG_GROW (faces, cap_faces, front[k].n);
             contact_at_front (s, &front[k], g->nfield, 1, faces);
         }
-        PG_TRY (pg_front_measure_faces (g->field + f->first[k], s->problem, s->force, s->self, state, k,
+        PG_TRY (pg_front_measure (g->field + f->first[k], s->problem, s->force, s->self, state, k,
                                         g->nfield, d, t, s->contact ? faces : NULL));
         for (size_t i = f->first[k]; s->contact && i < f->first[k + 1]; i++)
             facet_settle_energy (&g->field[i], g->nfield);
@@ -271,19 +271,6 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
 done:
     pg_free (known), pg_free (faces);
     return status;
-}
-
-long fronts_unjudged (const break_loop *b, const pg_state *state)
-{
-    const front_growth *f = b->growth->fronts;
-    size_t nfront;
-    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
-    long n = 0, open = 0;
-    for (size_t k = 0; f && k < nfront; k++) {
-        open += front[k].open != 0;
-        n += k < f->nfront && front[k].open && f->blind[k];
-    }
-    return n ? n : f && !open && !trial_has_strength (b->system.problem);
 }
 
 /* ---- growing ------------------------------------------------------------------------------------------- */

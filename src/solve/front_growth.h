@@ -52,9 +52,6 @@ pg_status fronts_offer_starts (break_loop *b, const search *g);
 /* Begins a new crack that was offered, a disc: its surface comes into being, and the bonds through it die. */
 pg_status fronts_start   (break_loop *b, pg_state *state, const facet_candidate *c);
 
-/* Open fronts that show nothing anywhere; where none is open and none can begin: 1. */
-long      fronts_unjudged (const break_loop *b, const pg_state *state);
-
 /* Fills J, T stress, K and utilisation at the vertices of crack fronts, for results. */
 pg_status fronts_show    (pg_solver *s, const pg_state *state, double factor);
 

@@ -12,7 +12,7 @@ static inline pg_tip_field first_tip (const run *r)
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const double *d = r->state->d, one = 1;
     pg_tip_field f;
-    check_ok (pg_tip_measure (&f, r->problem, force, self, r->state, 0, 1, &d, &one));
+    check_ok (pg_tip_measure (&f, r->problem, force, self, r->state, 0, 1, &d, &one, NULL, 0));
     return f;
 }
 #endif

@@ -142,7 +142,7 @@ static errors of_penny (exact *m, double unit, const double *normal, double radi
     pg_tip_field *f = calloc (n, sizeof *f);
     const double *d = t.state->d, one = 1;
     errors out = { 0 };
-    check_ok (pg_front_measure (f, t.problem, &t.force, m, t.state, 0, 1, &d, &one));
+    check_ok (pg_front_measure (f, t.problem, &t.force, m, t.state, 0, 1, &d, &one, NULL));
     double largest = 0, length = 0, E = m->E / (1 - m->nu * m->nu);
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < n; i++) {
@@ -225,7 +225,7 @@ static void check_straight (exact *m, double unit, size_t margin, int nfield)
            E = m->E / (1 - m->nu * m->nu), mu = m->E / (2 * (1 + m->nu));
     const double *d[2] = { tst.state->d, second };
     second[0] = 1;
-    check_ok (pg_front_measure (f, tst.problem, &tst.force, m, tst.state, 0, nfield, d, factor));
+    check_ok (pg_front_measure (f, tst.problem, &tst.force, m, tst.state, 0, nfield, d, factor, NULL));
     double size = hypot (hypot (m->K[0][0], m->K[0][1]), m->K[0][2]);
     for (size_t i = margin; i + margin < n; i++, seen++) {
         check_relative (dot (f[i].e, e), 1, 1e-9), check_relative (dot (f[i].normal, m->axes + 3), 1, 1e-9);
@@ -323,7 +323,7 @@ static double radius_of (const char *cracks, double *room)
     pg_tip_field *f = calloc (n, sizeof *f);
     const double *d = t.state->d, one = 1;
     memcpy (m.origin, t.problem->front[0].x, sizeof m.origin);
-    check_ok (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, &d, &one));
+    check_ok (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, &d, &one, NULL));
     double near = f[n / 2].near / 0.1;
     *room = f[n / 2].room / 0.1;
     for (size_t i = 7; i + 7 < n; i++) {               /* thinner tubes know the same of an exact field */
@@ -366,19 +366,19 @@ static void what_cannot_be_measured (void **state)
     size_t n = t.problem->front[0].n;
     pg_tip_field *f = calloc (n, sizeof *f);
     const double *d[3] = { t.state->d, t.state->d, t.state->d }, time[3] = { 1, 1, 1 };
-    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 1, 1, d, time), PG_E_USAGE);
-    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 3, d, time), PG_E_USAGE);
+    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 1, 1, d, time, NULL), PG_E_USAGE);
+    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 3, d, time, NULL), PG_E_USAGE);
     pg_status status = PG_E_MEMORY;
     size_t used = pg_memory_used ();
     for (size_t k = 1; status != PG_OK; k++) {
         pg_memory_fail_at (k);
-        status = pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, d, time);
+        status = pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, d, time, NULL);
         pg_memory_fail_at (0);
         assert_true (status == PG_OK || status == PG_E_MEMORY);
         assert_int_equal (pg_memory_used (), used);
     }
     t.force.sample = NULL;
-    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, d, time), PG_E_USAGE);
+    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, d, time, NULL), PG_E_USAGE);
     free (f);
     clear (&t);
 }

@@ -126,7 +126,7 @@ static answer round_crack (double a, const char *boundary)
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     size_t n = r.problem->front[0].n;
     pg_tip_field *f = pg_calloc (n, sizeof *f);
-    check_ok (pg_front_measure (f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    check_ok (pg_front_measure (f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL));
     for (size_t i = 0; i < n; i++) {
         assert_true (f[i].wide > 2);                  /* springs end no tube */
         out.J += f[i].J[0][0] / (double) n, out.K[0] += f[i].K[0][0] / (double) n;

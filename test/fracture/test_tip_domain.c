@@ -20,7 +20,7 @@ static pg_tip_field tip_at (double to, const char *more)
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     assert_int_equal (r.state->paths->ntip, 1);
     check_ok (force->refresh (self, r.state, NULL));
-    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL, 0));
     check_relative (f.h, 1, 1e-9), check_relative (f.r1, 1, 1e-9);
     check_relative (f.x[0], to, 1e-12), check_relative (f.e[0], 1, 1e-12);
     if (!isnan (f.near)) assert_true (f.J[0][0] == 0 && f.K[0][0] == 0);
@@ -84,7 +84,7 @@ static void and_behind_turns (void **state)
     for (size_t i = 0; i < cut.n; i++) r.state->alive[cut.bond[i]] = 0;
     check_ok (force->refresh (self, r.state, NULL));
     pg_tip_field f;
-    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL, 0));
     check_relative (f.e[0], c, 1e-9), check_relative (f.e[1], s, 1e-9);
     /* around the turn: from 0.75 beyond the tip to 12, and the outer half of that */
     check_relative (f.r1, 5.75, 1e-9), check_relative (f.near, 8.875, 1e-9);
@@ -107,7 +107,7 @@ static void what_has_no_K_is_refused (void **state)
     const double *d = r.state->d, one = 1;
     pg_tip_field f;
     check_contains (pg_tip_refuses (r.problem, force), "isotropic");
-    check_fails (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one), PG_E_USAGE);
+    check_fails (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL, 0), PG_E_USAGE);
     check_contains (pg_last_error (), "isotropic");
     clear (&r);
     r = scene_of (
@@ -115,8 +115,8 @@ static void what_has_no_K_is_refused (void **state)
            "{gauss_points: 1}\n" ONE "boundary: [" HELD "]\n" STATIC);
     force = pg_solver_force (r.solver, &self), d = r.state->d;
     assert_null (pg_tip_refuses (r.problem, force));   /* fronts in space have theirs */
-    check_fails (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one), PG_E_USAGE);
-    check_fails (pg_front_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one), PG_E_USAGE);
+    check_fails (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL, 0), PG_E_USAGE);
+    check_fails (pg_front_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL), PG_E_USAGE);
     clear (&r);
 }
 

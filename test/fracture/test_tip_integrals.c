@@ -147,7 +147,7 @@ static void check_field (exact *m, double unit, double angle, const char *more, 
                  K = hypot (m->K[0][0], m->K[0][1]), scale = K / sqrt (pi * unit);
     m->angle = angle, m->x[0] = 0.5 * unit * cos (angle), m->x[1] = 0.5 * unit * sin (angle);
     if (m->density > 0) t.state->v[0] = 1; /* the state moves: the stand-in says how */
-    check_ok (pg_tip_measure (&f, t.problem, &t.force, m, t.state, tip, 1, &d, &factor));
+    check_ok (pg_tip_measure (&f, t.problem, &t.force, m, t.state, tip, 1, &d, &factor, NULL, 0));
     check_relative (f.modulus, E, 1e-12);
     check_relative (f.h, unit / 20, 1e-9);
     check_scaled (f.e[0], cos (angle), 1e-9, 1), check_scaled (f.e[1], sin (angle), 1e-9, 1);
@@ -252,7 +252,7 @@ static void affine_fields (void **state)
     double factor[2] = { 0, 1 }, J, K[3], T, alone[2] = { 1, 0 };
     const double *d[2] = { t.state->d, second_of (&t) };
     pg_tip_field f;
-    check_ok (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, end_tip (&t, 0), 2, d, factor));
+    check_ok (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, end_tip (&t, 0), 2, d, factor, NULL, 0));
     for (double l = -1; l < 4; l += 0.7) {
         double both[2] = { 1, l }, k[2] = { 1e6 - 3e5 * l, 2e5 + 6e5 * l };
         pg_tip_combine (&f, 2, both, &J, K, &T);
@@ -265,8 +265,8 @@ static void affine_fields (void **state)
     pg_tip_intensities (&f, 2, alone, K);
     check_relative (hypot (K[0], K[1]), sqrt (f.modulus * f.J[0][0]), 1e-12);
     check_relative (K[1] / K[0], f.K[1][0] / f.K[0][0], 1e-12);
-    check_fails (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, 2, 1, d, factor), PG_E_USAGE);
-    check_fails (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, 0, 3, d, factor), PG_E_USAGE);
+    check_fails (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, 2, 1, d, factor, NULL, 0), PG_E_USAGE);
+    check_fails (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, 0, 3, d, factor, NULL, 0), PG_E_USAGE);
     clear (&t);
 }
 
@@ -295,7 +295,7 @@ static void fields_around_a_kink (void **state)
     }
     const double *d[2] = { t.state->d, second_of (&t) };
     pg_tip_field f;
-    check_ok (pg_tip_measure_faces (&f, t.problem, &t.force, &m, t.state, tip, 2, d, factor, NULL, h));
+    check_ok (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, tip, 2, d, factor, NULL, h));
     assert_int_equal (f.kinked, 1);
     check_scaled (f.e[0], cos (angle + turn[1]), 1e-9, 1);
     kinked_weights w;
@@ -346,7 +346,7 @@ static double behind_a_kink (double turn, double T, double pressure, double *rig
     const double *d = t.state->d;
     pg_tip_field f;
     t.state->v[0] = 1;
-    check_ok (pg_tip_measure_faces (&f, t.problem, &t.force, &m, t.state, tip, 1, &d, &one, NULL, h));
+    check_ok (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, tip, 1, &d, &one, NULL, h));
     double beta = atan2 (f.e[1], f.e[0]) - angle;      /* of a chord over the facets and what lies behind */
     assert_true (beta * turn > 0 && fabs (beta) > 0.15 && f.r1 > 0.9 * h);
     *right = ((1e12 + 1.6e11) * cos (beta) - 8e11 * sin (beta)) / m.E;

@@ -60,9 +60,9 @@ static void tips_do_not_see_a_turn (void **state)
             to_the_end (&r);
             const pg_force_type *force = pg_solver_force (r.solver, &self);
             d = r.state->d, more = turned (&r, w);
-            check_ok (pg_tip_measure (&before, r.problem, force, self, r.state, 0, 1, &d, &one));
+            check_ok (pg_tip_measure (&before, r.problem, force, self, r.state, 0, 1, &d, &one, NULL, 0));
             d = more;
-            check_ok (pg_tip_measure (&after, r.problem, force, self, r.state, 0, 1, &d, &one));
+            check_ok (pg_tip_measure (&after, r.problem, force, self, r.state, 0, 1, &d, &one, NULL, 0));
             print_message ("  %-24s offset %-10s J %.4g, K %.3g %.3g: change %.1e\n", method[k], offset[o],
                            before.J[0][0], before.K_wide[0][0], before.K_wide[1][0],
                            change (1, &before, &after));
@@ -95,9 +95,9 @@ static void fronts_do_not_see_a_turn (void **state)
         size_t n = r.problem->front[0].n;
         pg_tip_field *before = pg_calloc (n, sizeof *before), *after = pg_calloc (n, sizeof *after);
         d = r.state->d, more = turned (&r, w);
-        check_ok (pg_front_measure (before, r.problem, force, self, r.state, 0, 1, &d, &one));
+        check_ok (pg_front_measure (before, r.problem, force, self, r.state, 0, 1, &d, &one, NULL));
         d = more;
-        check_ok (pg_front_measure (after, r.problem, force, self, r.state, 0, 1, &d, &one));
+        check_ok (pg_front_measure (after, r.problem, force, self, r.state, 0, 1, &d, &one, NULL));
         print_message ("  %s, front of %zu vertices: J %.4g, change %.1e\n", method[k], n, before[0].J[0][0],
                        change (n, before, after));
         check_below (change (n, before, after), 1e-9);

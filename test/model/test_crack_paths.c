@@ -335,7 +335,7 @@ static void other_dimensions_have_no_paths (void **state)
     assert_ptr_equal (pg_state_cracks (b.problem, s), &b.problem->cracks);
     const double from[2] = { 0, 0 }, to[2] = { 1, 0 };
     check_fails (pg_crack_start (s, b.problem, from, to, 0, &cut), PG_E_USAGE);
-    check_fails (pg_tip_close (s, b.problem, 0, &cut), PG_E_USAGE);
+    check_fails (pg_crack_grow (s, b.problem, 0, (double[]) { 0, 0 }, 1, &cut), PG_E_USAGE);
     pg_state_free (&s), unbuild (&b);
 }
 

@@ -465,9 +465,9 @@ static void copies_are_deep_and_a_failure_changes_nothing (void **state)
     check_fails (pg_front_advance (g.s, g.p, 0, d, theta, &g.cut), PG_E_USAGE);
     check_fails (pg_front_advance (g.s, g.p, 1, d, theta, &g.cut), PG_E_USAGE);
     check_fails (pg_surface_start (g.s, g.p, 2, middle, e, &g.cut), PG_E_USAGE);
-    check_ok (pg_front_close (g.s, g.p, 0, &g.cut));
+    check_ok (pg_front_advance (g.s, g.p, 0, NULL, NULL, &g.cut));
     assert_false (g.s->surfaces->front->open);
-    check_fails (pg_front_close (g.s, g.p, 0, &g.cut), PG_E_USAGE);
+    check_fails (pg_front_advance (g.s, g.p, 0, NULL, NULL, &g.cut), PG_E_USAGE);
     pg_crack_surfaces_free (&before);
     end (&g);
 }

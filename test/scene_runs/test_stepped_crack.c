@@ -28,7 +28,7 @@ static double measured (run *r, double t)
     pg_tip_field f = { 0 };
     const double *d = r->state->d;
     assert_true (r->state->paths && r->state->paths->ntip == 1);
-    check_ok (pg_tip_measure (&f, r->problem, force, self, r->state, 0, 1, &d, &t));
+    check_ok (pg_tip_measure (&f, r->problem, force, self, r->state, 0, 1, &d, &t, NULL, 0));
     return f.K_wide[0][0];
 }
 

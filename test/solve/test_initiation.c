@@ -28,7 +28,7 @@ static void a_facet_releases_J (void **state)
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     const double *d[1] = { r.state->d }, t[1] = { 1 };
     pg_tip_field field;
-    check_ok (pg_tip_measure (&field, r.problem, force, self, r.state, 0, 1, d, t));
+    check_ok (pg_tip_measure (&field, r.problem, force, self, r.state, 0, 1, d, t, NULL, 0));
     check_relative (field.J[0][0], G, 0.01);
     pg_state *tried = NULL;
     check_ok (pg_state_create (&tried, r.problem, pg_solver_components (r.solver)));

@@ -66,7 +66,7 @@ static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver
             b->id[b->ntip] = state->paths->tip[t].id;
             pg_tip_faces faces;
             int touch = pg_solver_tip_faces (solver, state, t, &faces);
-            PG_TRY (pg_tip_measure_faces (&b->tip[b->ntip], p, force, self, state, t, 1, &d, &one,
+            PG_TRY (pg_tip_measure (&b->tip[b->ntip], p, force, self, state, t, 1, &d, &one,
                                           touch ? &faces : NULL, 0));
         }
         b->ntip++;
@@ -114,7 +114,7 @@ static pg_status measure_fronts (pg_first_break *b, const pg_problem *p, pg_solv
         PG_ALLOC (field, front[f].n);
         PG_ALLOC (faces, front[f].n);
         int touch = pg_solver_front_faces (solver, state, f, faces);
-        PG_TRY (pg_front_measure_faces (field, p, force, self, state, f, 1, &d, &one,
+        PG_TRY (pg_front_measure (field, p, force, self, state, f, 1, &d, &one,
                                         touch ? faces : NULL));
         summarise (&b->front[f], &front[f], field);
         pg_free (field), field = NULL, pg_free (faces), faces = NULL;
