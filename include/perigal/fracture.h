@@ -12,7 +12,10 @@
 
 PG_API_BEGIN
 
-enum { PG_TIP_TRIALS = 5 };                            /* directions of trial facets behind a kink */
+enum {
+    PG_TIP_TRIALS = 5,                                 /* directions of trial facets behind a kink */
+    PG_TIP_NUMBERS = 22                                /* J to T, with which a pg_tip_field begins */
+};
 
 /* What a ring around a tip must not hold: the surface, another crack, points with a load or support other
  * than springs and body forces, another material, a body force that acts on one side only, closed faces. */
@@ -122,6 +125,8 @@ void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double 
  * that K has; whether K_I opens the crack or closes it does not matter. As they are where J is not
  * positive. */
 void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K);
+/* J of stress intensity factors K of the fields: (K_I K_I + K_II K_II + antiplane K_III K_III) / E'. */
+void pg_tip_energy (const pg_tip_field *f, int nfield, double K[3][2], double J[2][2]);
 /* How well J is known, relative: by the two rings; NAN: there is only one. */
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l);
 

@@ -153,8 +153,8 @@ double front_core_along (const tip_material *m, double h);
 /* Adds what springs on points do to the sums of the cross sections. */
 pg_status springs_add    (const measuring *m);
 /* Springs on points as a body force at places of one cross section, added to the load of a field: each node's
- * springs over its volume. For rings that do not reach all the way in. reach: of the ring, m. */
-pg_status springs_spread (front_places *q, const measuring *m, int field, double reach);
+ * springs over its volume. For rings that do not reach all the way in. */
+pg_status springs_spread (front_places *q, const measuring *m, int field);
 
 /* ---- tips ---------------------------------------------------------------------------------------------- */
 /* Frame, spacing, room and radii of a tip (out: x, e, h, room, r1, near, wide), and the node nearest to

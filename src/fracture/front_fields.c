@@ -294,24 +294,26 @@ done:
 /* ---- what is known ------------------------------------------------------------------------------------- */
 void measured_nothing (pg_tip_field *out)
 {
-    for (int a = 0; a < 2; a++) {
-        for (int b = 0; b < 2; b++) out->J[a][b] = out->J_near[a][b] = NAN;
-        for (int m = 0; m < 3; m++) out->K[m][a] = out->K_wide[m][a] = NAN;
-        out->T[a] = NAN;
-    }
+    double none[PG_TIP_NUMBERS];
+    for (int q = 0; q < PG_TIP_NUMBERS; q++) none[q] = NAN;
+    memcpy (out, none, sizeof none);
+}
+
+void pg_tip_energy (const pg_tip_field *f, int nfield, double K[3][2], double J[2][2])
+{
+    for (int a = 0; a < nfield; a++)
+        for (int b = 0; b < nfield; b++)
+            J[a][b] = (K[0][a] * K[0][b] + K[1][a] * K[1][b] + f->antiplane * K[2][a] * K[2][b]) / f->modulus;
 }
 
 void measured_closed (pg_tip_field *out, int nfield)
 {
-    const double *II = out->K_wide[1], *III = out->K_wide[2];
     out->closed = 1;
     for (int a = 0; a < nfield; a++) {
         out->K[0][a] = out->K_wide[0][a] = 0, out->T[a] = NAN;
-        for (int b = 0; b < nfield; b++) {
-            out->J[a][b] = (II[a] * II[b] + out->antiplane * III[a] * III[b]) / out->modulus;
-            out->J_near[a][b] = NAN;                   /* one ring: nothing to compare it with */
-        }
+        for (int b = 0; b < nfield; b++) out->J_near[a][b] = NAN;      /* one ring: nothing to compare with */
     }
+    pg_tip_energy (out, nfield, out->K_wide, out->J);
 }
 
 /* ---- sums of the fields -------------------------------------------------------------------------------- */

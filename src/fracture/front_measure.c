@@ -299,38 +299,23 @@ done:
 }
 
 /* ---- along the front ----------------------------------------------------------------------------------- */
-/* The numbers of a vertex as one list, for sums of them. */
-enum { NUMBERS = 22 };
-static void list_of (const pg_tip_field *v, double *out)
-{
-    memcpy (out, v->J, sizeof v->J), memcpy (out + 4, v->J_near, sizeof v->J_near);
-    memcpy (out + 8, v->K, sizeof v->K), memcpy (out + 14, v->K_wide, sizeof v->K_wide);
-    memcpy (out + 20, v->T, sizeof v->T);
-}
-
-static void set_list (pg_tip_field *v, const double *list)
-{
-    memcpy (v->J, list, sizeof v->J), memcpy (v->J_near, list + 4, sizeof v->J_near);
-    memcpy (v->K, list + 8, sizeof v->K), memcpy (v->K_wide, list + 14, sizeof v->K_wide);
-    memcpy (v->T, list + 20, sizeof v->T);
-}
-
 /* 1/4, 1/2, 1/4; beyond an end, or a vertex that is not known, there is the vertex itself. */
 static pg_status smooth (const pg_front *f, pg_tip_field *v)
 {
     pg_status status = PG_OK;
+    enum { N = PG_TIP_NUMBERS };
     double *list = NULL;
-    PG_ALLOC (list, NUMBERS * f->n);
-    for (size_t i = 0; i < f->n; i++) list_of (&v[i], list + NUMBERS * i);
+    PG_ALLOC (list, N * f->n);
+    for (size_t i = 0; i < f->n; i++) memcpy (list + N * i, &v[i], N * sizeof *list);
     for (size_t i = 0; i < f->n; i++) {
         size_t beside[2] = { i ? i - 1 : f->closed ? f->n - 1 : i, i + 1 < f->n ? i + 1 : f->closed ? 0 : i };
-        double sum[NUMBERS];
-        for (int k = 0; k < NUMBERS; k++) sum[k] = 0.5 * list[NUMBERS * i + (size_t) k];
+        double sum[N];
+        for (int k = 0; k < N; k++) sum[k] = 0.5 * list[N * i + (size_t) k];
         for (int side = 0; side < 2; side++) {
             size_t j = isnan (v[beside[side]].near) ? i : beside[side];
-            for (int k = 0; k < NUMBERS; k++) sum[k] += 0.25 * list[NUMBERS * j + (size_t) k];
+            for (int k = 0; k < N; k++) sum[k] += 0.25 * list[N * j + (size_t) k];
         }
-        set_list (&v[i], sum);
+        memcpy (&v[i], sum, sizeof sum);
     }
 done:
     pg_free (list);
@@ -344,12 +329,12 @@ static void extrapolate (const pg_front *f, pg_tip_field *v)
     if (f->closed || f->n < 5) return;
     for (int end = 0; end < 2; end++) {
         size_t i = end ? f->n - 1 : 0, j = end ? i - 2 : 2, k = end ? i - 3 : 3;
-        double a[NUMBERS], b[NUMBERS];
+        double a[PG_TIP_NUMBERS], b[PG_TIP_NUMBERS];
         if (f->meets[i] == PG_MEETS_NOTHING || isnan (v[j].near) || isnan (v[k].near)) continue;
-        list_of (&v[j], a), list_of (&v[k], b);
-        for (int q = 0; q < NUMBERS; q++) b[q] = a[q] + 2 * (a[q] - b[q]);
+        memcpy (a, &v[j], sizeof a), memcpy (b, &v[k], sizeof b);
+        for (int q = 0; q < PG_TIP_NUMBERS; q++) b[q] = a[q] + 2 * (a[q] - b[q]);
         if (isnan (v[i].near)) v[i].near = v[j].near, v[i].wide = v[j].wide;
-        set_list (&v[i], b);
+        memcpy (&v[i], b, sizeof b);
         v[i].extrapolated = 1;
     }
 }

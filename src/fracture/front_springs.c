@@ -155,43 +155,16 @@ done:
 }
 
 /* ---- as a body force ----------------------------------------------------------------------------------- */
-/* The point of a list that is nearest to x; n: the list is empty. */
-static size_t nearest_of (const pg_problem *p, const size_t *list, size_t n, const double *x)
-{
-    size_t best = n;
-    double least = INFINITY;
-    for (size_t k = 0; k < n; k++) {
-        double d = hypot (p->cloud.x[2 * list[k]] - x[0], p->cloud.x[2 * list[k] + 1] - x[1]);
-        if (d < least) least = d, best = k;
-    }
-    return best;
-}
-
-/* Nodes that may be the nearest of a place within `reach` of x. */
-static pg_status nodes_around (const pg_problem *p, const double *x, double reach, size_t **list, size_t *n)
-{
-    pg_status status = PG_OK;
-    size_t cap = 0;
-    *n = 0;
-    for (size_t i = 0; i < p->cloud.n; i++) {
-        if (hypot (p->cloud.x[2*i] - x[0], p->cloud.x[2*i + 1] - x[1]) > reach) continue;
-        PG_GROW (*list, cap, *n + 1);
-        (*list)[(*n)++] = i;
-    }
-done:
-    return status;
-}
-
-pg_status springs_spread (front_places *q, const measuring *m, int at, double reach)
+pg_status springs_spread (front_places *q, const measuring *m, int at)
 {
     pg_status status = PG_OK;
     const pg_problem *p = m->p;
-    const front_place *section = &m->section[0].at;
     front_sample *f = &q->field[at];
-    size_t *node = NULL, n = 0, springs = 0, *of = NULL;
+    size_t springs = 0, *of = NULL;
+    pg_nearest *near = NULL;
     for (size_t l = 0; l < p->nload; l++) springs += p->load[l].kind == PG_SPRING;
     if (!springs) return PG_OK;
-    PG_TRY (nodes_around (p, section->x, reach + 2 * m->h, &node, &n));
+    PG_TRY (pg_nearest_create (&near, p->dim, p->cloud.n, p->cloud.x));
     PG_ALLOC (of, p->cloud.n);
     if (!f->load) PG_ALLOC (f->load, 3 * q->capacity);
     for (size_t l = 0; l < p->nload; l++) {
@@ -200,14 +173,14 @@ pg_status springs_spread (front_places *q, const measuring *m, int at, double re
         memset (of, 0, p->cloud.n * sizeof *of);       /* 1 + number within the set */
         for (size_t i = 0; i < load->set->npoint; i++) of[load->set->point[i]] = 1 + i;
         for (size_t k = 0; k < q->n; k++) {
-            size_t near = nearest_of (p, node, n, q->x + 2*k);
+            size_t node = (size_t) pg_nearest_find (near, q->x + 2*k, NULL, NULL);
             double force[3];
-            if (near == n || !of[node[near]]) continue;
-            pull_of (m, load, of[node[near]] - 1, q->x + 2*k, f->u + 3*k, at, section->frame, force);
-            for (size_t c = 0; c < 2; c++) f->load[3*k + c] += force[c] / p->cloud.volume[node[near]];
+            if (!of[node]) continue;
+            pull_of (m, load, of[node] - 1, q->x + 2*k, f->u + 3*k, at, m->section->at.frame, force);
+            for (size_t c = 0; c < 2; c++) f->load[3*k + c] += force[c] / p->cloud.volume[node];
         }
     }
 done:
-    pg_free (node), pg_free (of);
+    pg_nearest_free (&near), pg_free (of);
     return status;
 }

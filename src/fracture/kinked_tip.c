@@ -250,7 +250,7 @@ static pg_status sample_ring (front_places *q, kinked_faces *faces, const measur
         double *u, pressure = m->pressure[a];
         PG_TRY (places_sample (q, m, a));
         if (forced) PG_TRY (places_force (q, m, a));
-        PG_TRY (springs_spread (q, m, a, ring->wide));
+        PG_TRY (springs_spread (q, m, a));
         u = q->field[a].u;
         for (size_t k = 0; k < q->n; k++) {
             const double scene[3] = { u[3*k], u[3*k + 1] };

@@ -209,12 +209,7 @@ static int has_large_T (const pg_tip_field *f, int nfield)
 void facet_settle_energy (pg_tip_field *f, int nfield)
 {
     if (f->closed || isnan (f->near) || !has_large_T (f, nfield)) return;
-    for (int a = 0; a < nfield; a++)
-        for (int c = 0; c < nfield; c++) {
-            double sum = f->antiplane * f->K_wide[2][a] * f->K_wide[2][c];
-            for (int k = 0; k < 2; k++) sum += f->K_wide[k][a] * f->K_wide[k][c];
-            f->J[a][c] = f->J_near[a][c] = sum / f->modulus;
-        }
+    pg_tip_energy (f, nfield, f->K_wide, f->J), pg_tip_energy (f, nfield, f->K_wide, f->J_near);
 }
 
 /* Integrals that are no numbers judge nothing: the tip has no rings, and it is said. */

@@ -64,11 +64,10 @@ static double runs_along (const pg_front *front)
 {
     double sum = 0;
     for (size_t i = 0; i + 1 < front->n; i++) {
-        const double *e = front->ahead + 3*i, *m = front->normal + 3*i, *x = front->x + 3*i;
-        for (int k = 0; k < 3; k++) {
-            int a = (k + 1) % 3, c = (k + 2) % 3;
-            sum += (e[a] * m[c] - e[c] * m[a]) * (x[k + 3] - x[k]);
-        }
+        double t[3], way[3];
+        pg_cross3 (front->ahead + 3*i, front->normal + 3*i, t);
+        pg_shift3 (front->x + 3*i + 3, front->x + 3*i, -1, way);
+        sum += pg_dot3 (t, way);
     }
     return sum < 0 ? -1 : 1;
 }

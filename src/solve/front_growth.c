@@ -63,17 +63,10 @@ static size_t nearest_known (const unsigned char *known, size_t n, int closed, s
 /* The mean of what two vertices show. */
 static void add_half (pg_tip_field *out, const pg_tip_field *other)
 {
-    for (int a = 0; a < 2; a++) {
-        for (int b = 0; b < 2; b++) {
-            out->J[a][b] = 0.5 * (out->J[a][b] + other->J[a][b]);
-            out->J_near[a][b] = 0.5 * (out->J_near[a][b] + other->J_near[a][b]);
-        }
-        for (int k = 0; k < 3; k++) {
-            out->K[k][a] = 0.5 * (out->K[k][a] + other->K[k][a]);
-            out->K_wide[k][a] = 0.5 * (out->K_wide[k][a] + other->K_wide[k][a]);
-        }
-        out->T[a] = 0.5 * (out->T[a] + other->T[a]);
-    }
+    double a[PG_TIP_NUMBERS], b[PG_TIP_NUMBERS];
+    memcpy (a, out, sizeof a), memcpy (b, other, sizeof b);
+    for (int q = 0; q < PG_TIP_NUMBERS; q++) a[q] = 0.5 * (a[q] + b[q]);
+    memcpy (out, a, sizeof a);
     out->near = fmin (out->near, other->near), out->wide = fmin (out->wide, other->wide);
 }
 
@@ -96,9 +89,7 @@ static void as_opened (pg_tip_field *out, const pg_tip_field *from, int nfield)
         out->K_wide[0][a] = out->K[0][a];
         for (int k = 1; k < 3; k++) out->K[k][a] = out->K_wide[k][a] = 0;
     }
-    for (int a = 0; a < nfield; a++)
-        for (int b = 0; b < nfield; b++)
-            out->J[a][b] = out->J_near[a][b] = out->K[0][a] * out->K[0][b] / out->modulus;
+    pg_tip_energy (out, nfield, out->K, out->J), pg_tip_energy (out, nfield, out->K, out->J_near);
 }
 
 /* How little of what a vertex shows another one may take over: extrapolated values less than measured ones,
