@@ -292,7 +292,7 @@ static inline pg_status front_solve (const front_case *c, front_result *out)
     PG_ALLOC (out->angle, out->n);
     const pg_force_type *force = pg_solver_force (solver, &self);
     const double *d = state->d;
-    PG_TRY (pg_front_measure (out->field, problem, force, self, state, 0, 1, &d, &one));
+    PG_TRY (pg_front_measure (out->field, problem, force, self, state, 0, 1, &d, &one, NULL));
     out->solve = solved - begun, out->measure = front_seconds () - solved;
     for (size_t i = 0; i < out->n; i++) {
         right_at (c, out->field[i].x, &out->angle[i], out->K[i]);
