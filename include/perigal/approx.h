@@ -55,7 +55,8 @@ typedef struct {
     /* Influence times volume, m3, 0 on dead bonds (nnz). */
     double *w;
     /* Where N, dN and w of each place begin, counted in bonds (n): places that see their nodes alike share
-     * them. NULL: at the first bond of the place (read by pg_rows_offset). */
+     * them. NULL: at the first bond of the place (by pg_rows_offset). Those of two places may not overlap
+     * while they are evaluated. */
     size_t *at;
     /* How much wider than that of other places the support of each place is (n); NULL: none is wider
      * (pg_rows_widen). */

@@ -79,6 +79,8 @@ typedef double pg_eight __attribute__ ((vector_size (64), aligned (8), may_alias
 /* Folds more bytes into a fingerprint, which begins with PG_FINGERPRINT; data NULL folds nothing. */
 #define PG_FINGERPRINT 14695981039346656037u
 uint64_t pg_fingerprint (uint64_t so_far, const void *data, size_t bytes);
+/* Folds in every step-th of n numbers, eight bytes at a time: fast, for tables in memory alone. */
+uint64_t pg_fingerprint_numbers (uint64_t so_far, size_t n, size_t step, const double *value);
 
 /* ---- memory ------------------------------------------------------------------------------------------- */
 /* All memory of the library passes through these: zero-filled, overflow-checked, counted, aligned to 64

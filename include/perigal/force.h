@@ -170,10 +170,6 @@ typedef struct {
 } pg_force_surfaces;
 /* Entries that spare work and change no answer. */
 typedef struct {
-    /* Gives the values of shape functions that it has evaluated on the bare problem, at a state without
-     * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
-     * is good for nothing but `free` from then on. NULL: it has none to give. */
-    pg_status (*lend) (void *self, const pg_state *state, pg_problem *problem);
     /* What shortcuts of the force have spared so far, one at a time: what (96), why (160), seconds; returns 0
      * past the last. NULL: none. */
     int       (*spared)  (const void *self, size_t k, char *what, char *why, double *seconds);

@@ -53,21 +53,9 @@ void congruent_round (size_t n, double *z)
  * there. */
 static uint64_t fingerprint (const pg_neighbourhood *s, size_t n)
 {
-    uint64_t print = n * 0x9e3779b97f4a7c15u;
-    size_t numbers = s->n * (size_t) s->dim, step = numbers / 8 + 1;
-    for (size_t k = 0; k < numbers; k += step) {
-        uint64_t bits;
-        memcpy (&bits, s->z + k, sizeof bits);
-        print = (print ^ bits) * 0xff51afd7ed558ccdu;
-        print ^= print >> 32;
-    }
-    for (size_t k = 0; k < (size_t) s->dim && s->n; k++) {
-        uint64_t bits;
-        memcpy (&bits, s->z + (s->n - 1) * (size_t) s->dim + k, sizeof bits);
-        print = (print ^ bits) * 0xc4ceb9fe1a85ec53u;
-        print ^= print >> 29;
-    }
-    return print;
+    size_t dim = (size_t) s->dim, numbers = s->n * dim;
+    uint64_t print = pg_fingerprint_numbers (n, numbers, numbers / 8 + 1, s->z);
+    return s->n ? pg_fingerprint_numbers (print, dim, 1, s->z + numbers - dim) : print;
 }
 
 /* Have the nodes of row i these volumes? To the bit: on a lattice they are 1 to 8 eighths of a cell. */
@@ -80,7 +68,8 @@ static int same_volumes (const double *kept, const double *volume, const int *no
 int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volume, pg_rows *rows, size_t i,
                     size_t *slot)
 {
-    size_t first = rows->family.start[i], n = rows->family.start[i + 1] - first, dim = (size_t) c->dim;
+    size_t first = rows->family.start[i], n = rows->family.start[i + 1] - first, dim = (size_t) c->dim,
+           at = first + pg_rows_offset (rows, i);
     const int *node = rows->family.node + first;
     *slot = SIZE_MAX;
     if (!c->slots || c->missed > PATIENCE) return 0;
@@ -97,9 +86,9 @@ int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volum
         c->missed++;
         return 0;
     }
-    if (c->with_N) memcpy (rows->N + first, N, n * sizeof *N);
-    if (c->with_dN) memcpy (rows->dN + first * dim, dN, n * dim * sizeof *dN);
-    if (rows->w) memcpy (rows->w + first, w, n * sizeof *w);
+    if (c->with_N) memcpy (rows->N + at, N, n * sizeof *N);
+    if (c->with_dN) memcpy (rows->dN + at * dim, dN, n * dim * sizeof *dN);
+    if (rows->w) memcpy (rows->w + at, w, n * sizeof *w);
     rows->grade[i] = k->grade;
     c->copied++, c->copied_bonds += n, c->missed = 0;
     return 1;
@@ -108,13 +97,14 @@ int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volum
 void congruent_keep (congruent *c, size_t slot, const pg_rows *rows, size_t i, const double *volume)
 {
     if (slot == SIZE_MAX) return;
-    size_t first = rows->family.start[i], n = rows->family.start[i + 1] - first, dim = (size_t) c->dim;
+    size_t first = rows->family.start[i], n = rows->family.start[i + 1] - first, dim = (size_t) c->dim,
+           at = first + pg_rows_offset (rows, i);
     double *z = c->store + slot * stride (c), *v = z + c->most * dim, *w = v + c->most, *N = w + c->most,
            *dN = N + c->most;
     for (size_t k = 0; k < n; k++) v[k] = volume[rows->family.node[first + k]];
-    if (c->with_N) memcpy (N, rows->N + first, n * sizeof *N);
-    if (c->with_dN) memcpy (dN, rows->dN + first * dim, n * dim * sizeof *dN);
-    if (rows->w) memcpy (w, rows->w + first, n * sizeof *w);
+    if (c->with_N) memcpy (N, rows->N + at, n * sizeof *N);
+    if (c->with_dN) memcpy (dN, rows->dN + at * dim, n * dim * sizeof *dN);
+    if (rows->w) memcpy (w, rows->w + at, n * sizeof *w);
     c->slot[slot].grade = rows->grade[i];
     c->slot[slot].used = 1;
 }

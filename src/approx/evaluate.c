@@ -191,14 +191,14 @@ static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
  * and scales the others to the sum 1. */
 INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
-    size_t first = g->rows->family.start[i], kept = 0;
+    size_t first = g->rows->family.start[i], at = first + pg_rows_offset (g->rows, i), kept = 0;
     double nothing = g->same / s->a;
     if (g->cloud->metric) stretched (dim, g->a->kernel, nothing, g->cloud, g->rows->family.node + first, s);
     else if (g->a->shape == PG_TENSOR) tensor (g->a->kernel, nothing, s);
     else radial (dim, g->a->kernel, nothing, s);
     const int *node = g->rows->family.node + first;
     const double *volume = g->cloud->volume;
-    double total = 0, *influence = g->rows->w ? g->rows->w + first : NULL;
+    double total = 0, *influence = g->rows->w ? g->rows->w + at : NULL;
     double *z = s->z, *slope = s->slope, *w = s->w;
     size_t n = s->n, *entry = s->entry;
     int by_volume = g->a->use_volume, sloped = s->sloped;
@@ -248,7 +248,7 @@ static int wild (const pg_neighbourhood *s, const double *dN)
     return 0;
 }
 
-/* Sets the entries first to last - 1 of N and dN to zero. */
+/* Sets the values first to last - 1 of N and dN to zero. */
 static void clear (pg_rows *rows, size_t first, size_t last)
 {
     size_t dim = (size_t) rows->dim;
@@ -265,7 +265,8 @@ static int frail (const pg_neighbourhood *s)
     return 0;
 }
 
-/* Shape functions by the richest basis that the live bonds can carry; returns its grade.
+/* Shape functions by the richest basis that the live bonds can carry, as values first to last - 1 of the rows;
+ * returns its grade.
  * Derivatives that the caller did not ask for go to scratch space, where the rule for steep
  * ones or the formula needs them. */
 static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
@@ -289,7 +290,8 @@ static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t
 static void row (const evaluation *g, size_t i, pg_neighbourhood *s, congruent *known)
 {
     pg_rows *rows = g->rows;
-    size_t first = rows->family.start[i], last = rows->family.start[i + 1], slot = SIZE_MAX;
+    size_t first = rows->family.start[i] + pg_rows_offset (rows, i), slot = SIZE_MAX,
+           last = rows->family.start[i + 1] + pg_rows_offset (rows, i);
     int rounded = g->a->congruent && gather_rounded (g, i, s);
     if (!rounded) gather (g, i, s);
     if (s->stray) return;

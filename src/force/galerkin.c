@@ -22,12 +22,9 @@ static void galerkin_free (void **self)
 {
     galerkin *g = *self;
     if (!g) return;
-    galerkin_consistent_free (g);                      /* what is borrowed it tells by the flags below */
+    galerkin_rows_free (g);
+    galerkin_consistent_free (g);
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        galerkin_leaders_free (g, s);
-        if (!g->borrows[s])
-            pg_free (g->rows[s].N), pg_free (g->rows[s].dN), pg_free (g->rows[s].w),
-                pg_free (g->rows[s].at), pg_free (g->rows[s].grade);
         pg_free (g->measured.strain[s]), pg_free (g->measured.stress[s]), pg_free (g->measured.zz[s]),
             pg_free (g->measured.u[s]);
         pg_free (g->measured.s1[s]), pg_free (g->measured.s3[s]), pg_free (g->measured.seen[s]),
@@ -59,19 +56,17 @@ static void galerkin_free (void **self)
     *self = NULL;
 }
 
-/* Values of one bond set on the geometry of the problem, which is borrowed: shape functions N (1 a bond),
- * derivatives dN (dim), kernel w, grades (1 a point); strain, stress (nv), stress across a plane,
- * displacement, principal stresses; `seen`: the displacement these belong to. */
+/* Values of one bond set on the geometry of the problem, which is borrowed: rows of shape functions; strain,
+ * stress (nv), stress across a plane, displacement, principal stresses; `seen`: the displacement these belong
+ * to. */
 static pg_status create_set (galerkin *g, int s)
 {
     galerkin_measured *m = &g->measured;
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
-    pg_rows *r = &g->rows[s];
+    const pg_rows *r = &g->rows[s];
     size_t dim = (size_t) g->dim;
-    *r = p->rows[s];
-    r->N = r->dN = r->w = NULL, r->at = NULL, r->grade = NULL;
-    if (!galerkin_borrow (g, s)) PG_ALLOC (r->grade, r->n);
+    PG_TRY (galerkin_rows_create (g, s));
     g->material[s] = p->block[s];
     PG_ALLOC (m->strain[s], r->n * (size_t) g->nv);
     PG_ALLOC (m->stress[s], r->n * (size_t) g->nv);
@@ -135,6 +130,7 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
     pg_status status = PG_OK;
     galerkin *g = self;
     size_t count[PG_BOND_SETS];
+    if (galerkin_give_back (g, state)) changes = NULL;
     if (changes) touched_points (g, changes, count);
     galerkin_change_begin (g, !changes);
     for (int s = 0; s < PG_BOND_SETS; s++) {
@@ -142,9 +138,8 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
         /* pressures of patches reach further */
         int known = changes && g->measured.fresh[s] && !g->dilatation;
         g->measured.fresh[s] = 0;
-        PG_TRY (galerkin_own (g, state, s));
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], -1));
-        if (n && !g->borrows[s]) PG_TRY (galerkin_evaluate (g, state, s, n, changes ? g->list[s] : NULL));
+        if (n && !galerkin_borrows (g, s)) PG_TRY (galerkin_evaluate (g, state, s, n, changes ? g->list[s] : NULL));
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], 1));
         if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
         if (s == g->bulk) {
@@ -368,7 +363,7 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
     size_t places = 0, bonds = 0, lent = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         places += g->rows[s].copied, bonds += g->rows[s].copied_bonds;
-        if (g->borrows[s]) lent += g->rows[s].family.start[g->rows[s].n];
+        if (galerkin_borrows (g, s)) lent += g->rows[s].family.start[g->rows[s].n];
     }
     if (lent && k-- == 0) {
         snprintf (what, 96, "shape functions of the intact body");
@@ -385,7 +380,7 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
     size_t shared = galerkin_shared_bonds (g);
     if (shared && k-- == 0) {
         snprintf (what, 96, "memory for the shape functions of every point");
-        snprintf (why, 160, "points of a lattice that see their nodes alike share them; no bond is broken");
+        snprintf (why, 160, "points of a lattice that see their nodes alike share them");
         *seconds = 4e-10 * 8 * (double) (2 + g->dim) * (double) shared;        /* of fresh memory, s a byte */
         return 1;
     }
@@ -456,5 +451,5 @@ const pg_force_type pg_force_galerkin = {
                   .surface = galerkin_surface, .jump = jump, .trace = trace },
     .spares = { .balance_lean = galerkin_balance_lean, .share_of = galerkin_share_of,
                 .gather = galerkin_gather, .spared = spared,
-                .lend = galerkin_lend, .change = galerkin_change_of, .elements = galerkin_elements }
+                .change = galerkin_change_of, .elements = galerkin_elements }
 };

@@ -13,8 +13,7 @@
  * galerkin_ended.c, galerkin_ended_plan.c (cells that end at cracks), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
  * (preconditioner), galerkin_hats.c (the same on a coarse grid),
- * galerkin_intact.c (rows of the intact body), galerkin_share.c,
- * galerkin_leaders.c (rows that are alike), galerkin_sample.c (any place),
+ * galerkin_rows.c (rows of shape functions), galerkin_sample.c (any place),
  * galerkin_sample_alike.c (places that are alike),
  * galerkin_sample_again.c (places that are asked for again),
  * galerkin_estimate.c (error of the stress). */
@@ -42,7 +41,7 @@ typedef struct galerkin_sight galerkin_sight;           /* galerkin_sight.c */
 typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
 typedef struct galerkin_change galerkin_change;         /* galerkin_change.c */
 typedef struct galerkin_ended galerkin_ended;           /* galerkin_ended.c */
-typedef struct galerkin_leaders galerkin_leaders;       /* galerkin_leaders.c */
+typedef struct galerkin_store galerkin_store;           /* galerkin_rows.c */
 
 /* What the scene says of the method (pg_problem.options). */
 typedef struct {
@@ -128,10 +127,9 @@ typedef struct {
     /* evaluation points in stiffness and force: those of the bulk, or with consistent integration wider ones
      * with corrected derivatives */
     pg_rows  sums;
-    /* 1: the values of a set, and with the bulk those of consistent sums, are pg_problem.intact's */
-    int      borrows[PG_BOND_SETS];
-    /* rows of their own of which equal ones are read from one place; NULL: none are */
-    galerkin_leaders *leaders[PG_BOND_SETS];
+    /* 1: the values of nodes and points, and of consistent sums, are pg_problem.intact's */
+    int      borrows;
+    galerkin_store *store[PG_BOND_SETS];               /* NULL: every point has a row of its own */
     unsigned char *whole;  /* cells whose derivatives are corrected; NULL: not consistent */
     galerkin_ended *ended;                             /* NULL: no cells that could end at cracks */
     const int *material[PG_BOND_SETS];                 /* per point; the problem's */
@@ -159,28 +157,17 @@ pg_status galerkin_limits (const pg_problem *problem, size_t material, pg_criter
 double    galerkin_ghost_cells (const pg_scene *scene, double *beyond);
 void      galerkin_words (const pg_problem *problem, char *text, size_t size);
 
-/* intact: rows that the problem keeps, as long as no bond is broken. Gives the rows of a force on the bare
- * problem, all of whose bonds are alive, to the problem (pg_force_type.lend). */
-pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem);
-/* 1: the problem keeps rows of this set, which now serve. */
-int       galerkin_borrow (galerkin *g, int set);
-/* 1: and the wider ones of consistent integration. */
-int       galerkin_borrow_sums (galerkin *g);
+/* rows: of a set as they are at first, those of the problem or none; all of the force go when it is freed,
+ * before all else of it. */
+pg_status galerkin_rows_create (galerkin *g, int set);
+void      galerkin_rows_free   (galerkin *g);
+int       galerkin_borrows     (const galerkin *g, int set);           /* 1: they are those of the problem */
+/* 1: a bond is broken, so that rows of the problem serve no longer, and all are to be evaluated. */
+int       galerkin_give_back   (galerkin *g, const pg_state *state);
 /* The bulk's part of K, to be freed by the caller, or NULL: nobody has it, or bonds are broken. */
 pg_assembly *galerkin_take_stiffness (const galerkin *g);
-/* Copies of its own, a row for every point, where a bond of the set is broken. */
-pg_status galerkin_own (galerkin *g, const pg_state *state, int set);
-int       galerkin_all_alive (const galerkin *g, int set, const pg_state *state);
-/* g->sums, where these are rows of the bulk, after the arrays of these have changed. */
-void      galerkin_follow (galerkin *g);
-/* share: evaluates rows of a set that are its own (list NULL: all, otherwise `count` of them); rows that are
- * alike are kept once where no bond is broken. */
+/* Evaluates rows of a set that are its own: all (list NULL), or `count` of them. */
 pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t count, const size_t *list);
-/* leaders: own rows of a set that have just been evaluated, bonds being broken: equal ones are read from one
- * place. Before rows of a list are evaluated anew. */
-pg_status galerkin_leaders_find  (galerkin *g, const pg_state *state, int set);
-void      galerkin_leaders_leave (galerkin *g, int set, size_t count, const size_t *list);
-void      galerkin_leaders_free  (galerkin *g, int set);
 /* Bonds of all sets whose points share their rows. */
 size_t    galerkin_shared_bonds (const galerkin *g);
 /* sum: the loops over points */

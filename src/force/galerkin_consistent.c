@@ -14,7 +14,6 @@ pg_status galerkin_consistent_create (galerkin *g)
     const pg_consistency *c = g->problem->consistency;
     g->sums = g->rows[g->bulk];
     if (!c) return PG_OK;
-    size_t nnz = c->family.start[c->family.n];
     g->sums.family = c->family;
     g->sums.N = g->sums.dN = g->sums.w = NULL;
     g->sums.weight = NULL;
@@ -22,9 +21,7 @@ pg_status galerkin_consistent_create (galerkin *g)
     memcpy (g->sums.weight, g->rows[g->bulk].weight, g->sums.n * sizeof *g->sums.weight);
     PG_ALLOC (g->whole, c->cells->n);
     PG_TRY (galerkin_ended_create (g));
-    if (galerkin_borrow_sums (g)) return PG_OK;
-    PG_ALLOC (g->sums.N, nnz);
-    PG_ALLOC (g->sums.dN, nnz * (size_t) g->dim);
+    if (g->borrows) g->sums.N = g->problem->intact->sums.N, g->sums.dN = g->problem->intact->sums.dN;
 done:
     return status;
 }
@@ -32,7 +29,7 @@ done:
 /* What is borrowed from the shape functions is not freed here. */
 void galerkin_consistent_free (galerkin *g)
 {
-    if (g->problem->consistency && !g->borrows[g->bulk]) pg_free (g->sums.N), pg_free (g->sums.dN);
+    if (g->problem->consistency && !g->borrows) pg_free (g->sums.N), pg_free (g->sums.dN);
     if (g->problem->consistency) pg_free (g->sums.weight);
     galerkin_ended_free (g);
     pg_free (g->whole);
@@ -273,11 +270,14 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     kept_rows old = { 0 };
     int moved = 0;
     if (all) {
-        if (!g->borrows[g->bulk]) PG_TRY (galerkin_ended_plan (g, state, &moved));
+        if (!g->borrows) PG_TRY (galerkin_ended_plan (g, state, &moved));
         memset (g->whole, 1, c->cells->n);
         for (size_t cell = 0; cell < c->cells->n; cell++)
             if (!bonds_complete (g, state, cell)) open_around (g, cell);
-        if (g->borrows[g->bulk]) return PG_OK;
+        if (g->borrows) return PG_OK;
+        size_t bonds = c->family.start[c->family.n];
+        if (!g->sums.N) PG_ALLOC (g->sums.N, bonds);
+        if (!g->sums.dN) PG_ALLOC (g->sums.dN, bonds * (size_t) g->dim);
         galerkin_ended_mark (g);
         PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, galerkin_ended_faces (g)->N, 0, NULL,
                                       g->threads));

@@ -21,8 +21,8 @@ static const double near_bonds = 2, near_cracks = 3;
 /* Numbers of all batches at most: 64 MB. */
 static const size_t room = 8u << 20;
 
-/* What the shape functions of a batch follow from: bytes of live bonds, numbers of cracks. */
-typedef struct { unsigned char *alive; size_t nalive; double *crack; size_t ncrack, cap_crack; } surroundings;
+/* What the shape functions of a batch follow from: live bonds, then the numbers of cracks. */
+typedef struct { unsigned char *byte; size_t n, cap; } surroundings;
 
 typedef struct {
     size_t n, nnear[2];
@@ -36,17 +36,10 @@ typedef struct {
 
 struct galerkin_again { batch kept[BATCHES]; size_t n; long clock; surroundings now; };
 
-static void clear_surroundings (surroundings *s)
-{
-    pg_free (s->alive), pg_free (s->crack);
-    *s = (surroundings) { 0 };
-}
-
 static void clear_batch (batch *b)
 {
-    pg_free (b->x), pg_free (b->near[0]), pg_free (b->near[1]), pg_free (b->at);
+    pg_free (b->x), pg_free (b->near[0]), pg_free (b->near[1]), pg_free (b->at), pg_free (b->around.byte);
     pg_rows_clear (&b->rows);
-    clear_surroundings (&b->around);
     *b = (batch) { 0 };
 }
 
@@ -55,8 +48,7 @@ void galerkin_again_free (galerkin_again **again)
     galerkin_again *a = *again;
     if (!a) return;
     for (size_t k = 0; k < a->n; k++) clear_batch (&a->kept[k]);
-    clear_surroundings (&a->now);
-    pg_free (a);
+    pg_free (a->now.byte), pg_free (a);
     *again = NULL;
 }
 
@@ -92,18 +84,23 @@ done:
     return status;
 }
 
-/* Numbers that say where a segment cuts: its ends, how far it stops before them, its sides. */
+static pg_status add (surroundings *s, size_t bytes, const void *data)
+{
+    pg_status status = PG_OK;
+    PG_GROW (s->byte, s->cap, s->n + bytes);
+    memcpy (s->byte + s->n, data, bytes), s->n += bytes;
+done:
+    return status;
+}
+
+/* Where a segment cuts: its ends, how far it stops before them, its sides. */
 static pg_status add_crack (surroundings *s, const pg_crack *c)
 {
     pg_status status = PG_OK;
-    size_t n = 2 * c->nvertex + c->nvertex + 4;
-    PG_GROW (s->crack, s->cap_crack, s->ncrack + n);
-    double *to = s->crack + s->ncrack;
-    memcpy (to, c->vertex, 2 * c->nvertex * sizeof *to);
-    for (size_t i = 0; i < c->nvertex; i++) to[2 * c->nvertex + i] = c->retreat ? c->retreat[i] : 0;
-    to += 3 * c->nvertex;
-    to[0] = c->normal[0], to[1] = c->normal[1], to[2] = c->sided, to[3] = c->width;
-    s->ncrack += n;
+    double rest[] = { c->normal[0], c->normal[1], c->sided, c->width, (double) c->nvertex };
+    PG_TRY (add (s, 2 * c->nvertex * sizeof *c->vertex, c->vertex));
+    if (c->retreat) PG_TRY (add (s, c->nvertex * sizeof *c->retreat, c->retreat));
+    PG_TRY (add (s, sizeof rest, rest));
 done:
     return status;
 }
@@ -114,32 +111,19 @@ static pg_status look_around (surroundings *out, const batch *b, const galerkin 
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     const pg_cracks *cracks = pg_state_cracks (p, state);
-    double more = near_cracks * p->approx.horizon;
-    size_t bonds = 0;
+    double more = near_cracks * p->approx.horizon, box[4];
     int sets[2] = { PG_NODES, g->bulk };
-    for (int pass = 0; pass < 2; pass++) {
-        if (pass) {
-            pg_free (out->alive), out->alive = NULL;
-            PG_ALLOC (out->alive, bonds + 1);
+    out->n = 0;
+    for (int s = 0; s < 2; s++)
+        for (size_t k = 0; k < b->nnear[s]; k++) {
+            const size_t *start = g->rows[sets[s]].family.start + b->near[s][k];
+            PG_TRY (add (out, start[1] - start[0], state->alive + p->first_bond[sets[s]] + start[0]));
         }
-        bonds = 0;
-        for (int s = 0; s < 2; s++)
-            for (size_t k = 0; k < b->nnear[s]; k++) {
-                const size_t *start = g->rows[sets[s]].family.start + b->near[s][k];
-                size_t count = start[1] - start[0];
-                if (pass)
-                    memcpy (out->alive + bonds, state->alive + p->first_bond[sets[s]] + start[0], count);
-                bonds += count;
-            }
-    }
-    out->nalive = bonds, out->ncrack = 0;
     for (size_t k = 0; k < cracks->n; k++) {
-        double box[4];
         pg_crack_box (&cracks->crack[k], 2, box);
-        if (box[0] > b->high[0] + more || box[2] < b->low[0] - more || box[1] > b->high[1] + more
-            || box[3] < b->low[1] - more)
-            continue;
-        PG_TRY (add_crack (out, &cracks->crack[k]));
+        if (box[0] <= b->high[0] + more && box[2] >= b->low[0] - more && box[1] <= b->high[1] + more
+            && box[3] >= b->low[1] - more)
+            PG_TRY (add_crack (out, &cracks->crack[k]));
     }
 done:
     return status;
@@ -147,14 +131,13 @@ done:
 
 static int same (const surroundings *a, const surroundings *b)
 {
-    return a->nalive == b->nalive && a->ncrack == b->ncrack && memcmp (a->alive, b->alive, a->nalive) == 0
-           && (!a->ncrack || memcmp (a->crack, b->crack, a->ncrack * sizeof *a->crack) == 0);
+    return a->n == b->n && (!a->n || memcmp (a->byte, b->byte, a->n) == 0);
 }
 
 /* ---- batches ------------------------------------------------------------------------------------------- */
 static size_t numbers_of (const batch *b)
 {
-    return b->rows.family.start[b->n] * 4 + b->n * 8 + b->around.nalive / 8 + b->nnear[0] + b->nnear[1];
+    return b->rows.family.start[b->n] * 4 + b->n * 8 + b->around.n / 8 + b->nnear[0] + b->nnear[1];
 }
 
 /* The last of the list takes the place of one that goes. */

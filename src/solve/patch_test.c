@@ -502,14 +502,17 @@ static void diagonal (void *context, double *d)
  * they would lie in memory beside those of the run. */
 static int lasts (const pg_problem *p)
 {
-    return !p->plain && pg_force_of (p)->spares.lend && !p->criterion->type && p->cracks.n == 0;
+    return !p->plain && p->method->shape_functions && !p->criterion->type && p->cracks.n == 0;
 }
+
+/* Has the run the material of the bare body everywhere? */
+static int is_uniform (const pg_problem *p) { return p->nmaterial == 1 && p->nlaw == 1; }
 
 /* A factor where it costs less than iterations and the body is whole. */
 static pg_status make_factor (probe *t, const pg_problem *p, int held)
 {
     pg_status status = PG_OK;
-    int reused = lasts (p) && p->nmaterial == 1 && p->nlaw == 1;
+    int reused = lasts (p) && is_uniform (p);
     if (held || t->out.fragments || t->out.isolated) return PG_OK;
     PG_TRY (patch_factor_create (&t->factor, t->p, t->force, t->self, t->limit, reused));
     t->product = (pg_operator) { t->ndof, t, multiply, diagonal };
@@ -573,6 +576,10 @@ pg_status pg_patch_probe (pg_problem *problem)
     double start = pg_seconds ();
     t.out = (pg_patch) { .error = NAN, .compliance = NAN, .settled = 1 };
     if (!t.force || !t.force->surfaces.surface || !t.force->operator_ || !t.force->field) return PG_OK;
+    if (lasts (problem) && !problem->intact) {
+        PG_ALLOC (problem->intact, 1);
+        problem->intact->wanted = 1 + is_uniform (problem);
+    }
     PG_TRY (pg_problem_bare (&bare, problem));
     t.p = bare, t.rows = borne_by_rows (problem);
     PG_TRY (prepare (&t));
@@ -585,11 +592,11 @@ pg_status pg_patch_probe (pg_problem *problem)
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     PG_TRY (measure_softness (&t));
     if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
-    if (lasts (problem)) PG_TRY (t.force->spares.lend (t.self, t.state, problem));
     t.out.seconds = pg_seconds () - start;
     problem->patch = t.out;
 done:
     clear (&t);
+    if (problem->intact) problem->intact->wanted = 0;
     pg_problem_bare_free (&bare);
     return status;
 }

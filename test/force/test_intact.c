@@ -46,6 +46,17 @@ static void same (const bonded *b, void *kept, const double *d)
     pg_free (f), pg_free (g);
 }
 
+/* Bonds whose values are kept: those of different rows. */
+static size_t kept_bonds (const pg_rows *r, const pg_family *f)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < f->n; i++) {
+        size_t end = (r->at ? r->at[i] : f->start[i]) + f->start[i + 1] - f->start[i];
+        most = end > most ? end : most;
+    }
+    return most;
+}
+
 static void kept_rows_give_the_same_bits (void **unused)
 {
     (void) unused;
@@ -57,7 +68,7 @@ static void kept_rows_give_the_same_bits (void **unused)
         check_ok (pg_patch_probe (b.problem));
         assert_non_null (b.problem->intact);
         const pg_rows *r = &b.problem->intact->rows[PG_NODES];
-        size_t bonds = b.problem->rows[PG_NODES].family.start[b.n];
+        size_t bonds = kept_bonds (r, &b.problem->rows[PG_NODES].family);
         double *before = pg_calloc (bonds, sizeof *before), *wide = b.problem->intact->sums.dN;
         memcpy (before, r->N, bonds * sizeof *before);
         check_ok (b.force->create (&kept, b.problem));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Points of a lattice that see their nodes alike share their rows: every row has the bits that it has alone,
- * before bonds break and after; where rows are corrected, or each is another, none is shared. */
+ * before bonds break and after; where rows are corrected, or points lie anywhere, none is shared. */
 #include <math.h>
 #include "../scene_runs/run.h"
 #include "force/galerkin.h"
@@ -47,11 +47,11 @@ static void same_rows (const galerkin *a, const galerkin *b)
     }
 }
 
-/* Points that read the row of another one. */
-static size_t of_others (const pg_rows *r)
+/* Points that read the row of point p. */
+static size_t readers (const pg_rows *r, size_t p)
 {
     size_t n = 0;
-    for (size_t i = 0; i < r->n; i++) n += r->at[i] != r->family.start[i];
+    for (size_t i = 0; i < r->n; i++) n += r->at[i] == r->at[p];
     return n;
 }
 
@@ -70,24 +70,47 @@ static void rows_are_those_of_points_alone (void **state)
         for (size_t i = 0; i < bulk->n; i++) most = bulk->at[i] > most ? bulk->at[i] : most;
         check_below ((double) most, 0.8 * (double) bulk->family.start[bulk->n]);
         same_rows (a, b);
-        /* the last point of evaluation loses a bond: all have rows of their own, that one another, and read
-         * equal ones from one place */
+        /* the last point of evaluation loses a bond: it gets a row that nobody else reads */
         size_t bond = r.problem->first_bond[a->bulk + 1] - 1;
         r.state->alive[bond] = own.state->alive[bond] = 0;
         pg_changes changes = { 1, 1, &bond };
         refresh (&r, &changes), refresh (&own, &changes);
         assert_ptr_equal (a->sums.dN, bulk->dN);
         assert_ptr_equal (a->sums.at, bulk->at), assert_non_null (bulk->at);
-        assert_int_equal (bulk->at[bulk->n - 1], bulk->family.start[bulk->n - 1]);
-        assert_true (of_others (bulk) > bulk->n / 2);
+        assert_int_equal (readers (bulk, bulk->n - 1), 1);
         same_rows (a, b);
         clear (&r), clear (&own);
     }
 }
 
-/* Bonds break one after the other at points whose rows others read, at those that read them, and at both
- * again; every row stays what it is by itself, and so do the products that are made of them. */
-static void rows_are_read_elsewhere_until_they_change (void **state)
+/* Where the last kept row begins. */
+static size_t last_row (const pg_rows *r)
+{
+    size_t most = 0;
+    for (size_t p = 0; p < r->n; p++) most = r->at[p] > most ? r->at[p] : most;
+    return most;
+}
+
+/* Breaks the first live bond of a point, or (whole: 1) mends all of its bonds, in both runs. */
+static void change (run *r, run *own, size_t base, size_t point, int whole)
+{
+    const galerkin *g = force_of (r);
+    size_t bond[64], n = 0, first = base + g->rows[g->bulk].family.start[point],
+           last = base + g->rows[g->bulk].family.start[point + 1];
+    for (size_t e = first; e < last && n < 64; e++) {
+        if (r->state->alive[e] == whole) continue;
+        r->state->alive[e] = own->state->alive[e] = (unsigned char) whole;
+        bond[n++] = e;
+        if (!whole) break;
+    }
+    pg_changes changes = { n, n, bond };
+    refresh (r, &changes), refresh (own, &changes);
+}
+
+/* Bonds break one after the other at points whose rows others read and at those that have lost some, and are
+ * mended again; every row stays what it is by itself, and so do the products that are made of them. What is
+ * no longer read makes room. */
+static void rows_stay_what_they_are_by_themselves (void **state)
 {
     (void) state;
     for (int k = 0; k < 2; k++) {
@@ -101,26 +124,18 @@ static void rows_are_read_elsewhere_until_they_change (void **state)
         double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n, top = 0;
         for (size_t i = 0; i < n; i++) x[i] = sin (12.9898 * (double) i);
         for (size_t round = 0; round < 40; round++) {
-            /* in turns a point that others read from, one that reads from it, any one */
-            size_t point = 37 * round % bulk->n, leader = point;
-            for (size_t i = 0; bulk->at && i < bulk->n && leader == point; i++)
-                if (bulk->at[i] != bulk->family.start[i]) {
-                    leader = 0;
-                    while (bulk->family.start[leader + 1] <= bulk->at[i]) leader++;
-                    point = round % 3 == 0 ? leader : round % 3 == 1 ? i : point;
-                    break;
-                }
-            size_t bond = base + bulk->family.start[point];
-            while (!r.state->alive[bond]) bond++;
-            r.state->alive[bond] = own.state->alive[bond] = 0;
-            pg_changes changes = { 1, 1, &bond };
-            refresh (&r, &changes), refresh (&own, &changes);
+            change (&r, &own, base, 37 * (round / 3) % bulk->n, round % 6 == 5);
             assert_non_null (bulk->at);
             same_rows (a, b);
             galerkin_apply (a, x, y), galerkin_apply (b, x, z);
             for (size_t i = 0; i < n; i++) top = fmax (top, fabs (z[i]));
             for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-11, top);
         }
+        size_t most = last_row (bulk);
+        for (size_t p = 0; p < 700; p++)
+            change (&r, &own, base, p % bulk->n, 0), change (&r, &own, base, p % bulk->n, 1);
+        assert_true (last_row (bulk) < most + 64 * 64);
+        same_rows (a, b);
         refresh (&r, NULL), refresh (&own, NULL);
         same_rows (a, b);
         pg_free (x);
@@ -171,7 +186,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (rows_are_those_of_points_alone),
-        cmocka_unit_test (rows_are_read_elsewhere_until_they_change),
+        cmocka_unit_test (rows_stay_what_they_are_by_themselves),
         cmocka_unit_test (corrected_and_irregular_rows_are_alone),
         cmocka_unit_test (memory_that_ends_is_told),
     };
