@@ -305,8 +305,8 @@ typedef struct { unsigned char *owned; int64_t *number; } pg_held_points;
  * PG_POINTS, and with consistent integration those of its wider rows. They were evaluated by the patch test;
  * forces read them as long as no bond of theirs is broken. K: the stiffness of the evaluation points, without
  * supports, for the force that takes it first (then NULL); NULL: the patch test has not assembled it, or the
- * materials of the run are others. wanted: 1, the force that is freed next, of the patch test, leaves its rows
- * here, 2: and K. */
+ * materials of the run are others. wanted: 1, the force that is freed next, of the patch test, leaves its
+ * rows here, 2: and K. */
 typedef struct pg_intact {
     pg_rows rows[PG_BOND_SETS], sums;
     struct pg_assembly *K;

@@ -265,8 +265,8 @@ static int frail (const pg_neighbourhood *s)
     return 0;
 }
 
-/* Shape functions by the richest basis that the live bonds can carry, as values first to last - 1 of the rows;
- * returns its grade.
+/* Shape functions by the richest basis that the live bonds can carry, as values first to last - 1 of the
+ * rows; returns its grade.
  * Derivatives that the caller did not ask for go to scratch space, where the rule for steep
  * ones or the formula needs them. */
 static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)

@@ -166,7 +166,7 @@ int       galerkin_borrows     (const galerkin *g, int set);           /* 1: the
 int       galerkin_give_back   (galerkin *g, const pg_state *state);
 /* The bulk's part of K, to be freed by the caller, or NULL: nobody has it, or bonds are broken. */
 pg_assembly *galerkin_take_stiffness (const galerkin *g);
-/* Evaluates rows of a set that are its own: all (list NULL), or `count` of them. */
+/* Evaluates rows of a set that are not those of the problem: all (list NULL), or `count` of them. */
 pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t count, const size_t *list);
 /* Bonds of all sets whose points share their rows. */
 size_t    galerkin_shared_bonds (const galerkin *g);

@@ -23,8 +23,8 @@
 /* Points that are evaluated at a time; numbers of a row that its fingerprint is made of. */
 enum { PART = 16384, PRINTS = 12 };
 
-/* A kept row: its first bond in the list, their number, how many points read it, its fingerprint; the next one
- * in its chain, + 1. */
+/* A kept row: its first bond in the list, their number, how many points read it, its fingerprint; the next
+ * one in its chain, + 1. */
 typedef struct { size_t at, bonds, readers; uint64_t print; int next; } kept_row;
 
 /* Numbers of rows are + 1; 0: none. */

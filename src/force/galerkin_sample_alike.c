@@ -33,7 +33,7 @@ static const double finest = 0x1p40;
 
 /* Where a place stands: fractions of a cell (2^-40), and the pattern of that cell. used: 1: known, -1: its
  * rows are no good for others. */
-typedef struct { int64_t part[3]; size_t pattern; int used; } key;
+typedef struct { double part[3]; size_t pattern; int used; } key;
 
 struct galerkin_alike {
     int      dim;
@@ -155,21 +155,10 @@ done:
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
-static uint64_t mix (uint64_t h, uint64_t bits)
-{
-    h = (h ^ bits) * 0xff51afd7ed558ccdu;
-    return h ^ h >> 32;
-}
-
 /* The field d of ndof numbers is sampled next: another one begins without rows. */
 void galerkin_alike_begin (galerkin_alike *a, size_t ndof, const double *d)
 {
-    uint64_t field = mix (1, ndof);
-    for (size_t i = 0; i < ndof; i++) {
-        uint64_t bits;
-        memcpy (&bits, d + i, sizeof bits);
-        field = mix (field, bits);
-    }
+    uint64_t field = pg_fingerprint_numbers (ndof, ndof, 1, d);
     if (field == a->field) return;
     a->field = field;
     if (a->asked == 0) return;
@@ -181,13 +170,13 @@ void galerkin_alike_begin (galerkin_alike *a, size_t ndof, const double *d)
 
 /* The cell that a place lies in: number of the first vertex of its block, and the place in the cell. 0: so
  * far outside that the block is not there. */
-static int cell_of (const galerkin_alike *a, const double *x, size_t *first, int64_t *part)
+static int cell_of (const galerkin_alike *a, const double *x, size_t *first, double *part)
 {
     long at[3];
     for (int k = 0; k < a->dim; k++) {
         double t = (x[k] - a->low[k]) * a->inverse[k], cell = floor (t + 1e-9);
         if (!(cell >= -1) || !(cell < (double) (a->count[k] - 2 * a->width[k] - 1))) return 0;
-        at[k] = (long) cell + a->first[k], part[k] = llround ((t - cell) * finest);
+        at[k] = (long) cell + a->first[k], part[k] = round ((t - cell) * finest) + 0.0;   /* no -0 */
     }
     for (int k = a->dim; k < 3; k++) part[k] = 0;
     *first = number_of (a, at);
@@ -198,15 +187,11 @@ static int cell_of (const galerkin_alike *a, const double *x, size_t *first, int
 static size_t pattern_of (galerkin_alike *a, const double *volume, size_t first)
 {
     double seen[MOST_BLOCK], *own = a->pattern + a->npattern * a->block;
-    uint64_t h = 0;
     for (size_t e = 0; e < a->block; e++) {
         int j = a->node[first + a->offset[e]];
-        uint64_t bits;
         seen[e] = j < 0 ? 0 : volume[j];
-        memcpy (&bits, &seen[e], sizeof bits);
-        h = mix (h, bits);
     }
-    size_t slot = h % (2 * PATTERNS);
+    size_t slot = pg_fingerprint_numbers (0, a->block, 1, seen) % (2 * PATTERNS);
     for (; a->at_pattern[slot]; slot = (slot + 1) % (2 * PATTERNS)) {
         size_t known = (size_t) a->at_pattern[slot] - 1;
         if (memcmp (a->pattern + known * a->block, seen, a->block * sizeof *seen) == 0) return known;
@@ -234,9 +219,7 @@ static int may_be_parted (const galerkin_alike *a, const double *x)
 /* Number of a key, made if it is not known; KEPT: no more are. */
 static size_t key_of (galerkin_alike *a, const key *wanted)
 {
-    uint64_t h = wanted->pattern;
-    for (int k = 0; k < 3; k++) h = mix (h, (uint64_t) wanted->part[k]);
-    size_t slot = h % (2 * KEPT);
+    size_t slot = pg_fingerprint_numbers (wanted->pattern, 3, 1, wanted->part) % (2 * KEPT);
     for (; a->at_key[slot]; slot = (slot + 1) % (2 * KEPT)) {
         const key *known = &a->key[a->at_key[slot] - 1];
         if (known->pattern == wanted->pattern
@@ -296,8 +279,8 @@ pg_status galerkin_alike_sort (galerkin_alike *a, const double *volume, size_t n
 void galerkin_alike_keep (galerkin_alike *a, int k, const pg_rows *r, size_t at, const double *x)
 {
     size_t first, dim = (size_t) a->dim, e = r->family.start[at], last = r->family.start[at + 1];
+    double part[3];
     double *rows = a->rows + (size_t) k * (1 + dim) * a->lanes;
-    int64_t part[3];
     a->key[k].used = -1;
     if (r->grade[at] != PG_GRADE_FULL || !cell_of (a, x, &first, part)) return;
     for (size_t b = 0; b < a->block && e < last; b++) {
@@ -361,8 +344,7 @@ void galerkin_alike_values (const galerkin_alike *a, int k, const double *x, con
 {
     size_t first, dim = (size_t) a->dim;
     const double *rows = a->rows + (size_t) k * (1 + dim) * a->lanes;
-    double out[12];
-    int64_t part[3];
+    double out[12], part[3];
     if (!cell_of (a, x, &first, part)) return;
     if (first != *held) gather (a, first, d, value), *held = first;
     if (dim == 3) multiply_solid (a->lanes, rows, value, out);

@@ -173,7 +173,7 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
         { p->problem->approx.congruent && p->forecast->shared && !p->forecast->interpolates
           && p->forecast->points + p->forecast->evaluation > 1000,
           "memory for the shape functions of every point",
-          "points of a lattice that see their nodes alike share them; no bond is broken" },
+          "points of a lattice that see their nodes alike share them" },
         { fails && !steps && !o->plain && p->problem->method->shape_functions
           && pg_problem_breaks_by_elongation (p->problem), "utilisation of most bonds",
           "a bond breaks by its elongation: only where the longest of a block reaches the limit they are "
