@@ -230,18 +230,15 @@ typedef struct { int place, node, point; size_t bond; } galerkin_entry;
  * same: all groups have the N and dN of the first to the last bit. */
 typedef struct { size_t point, points, count, entry, entries; int same; } galerkin_run;
 /* Runs among the points first .. last - 1, ascending; to be found anew if stale. bonds: of all their
- * points. known: of each point whether its row has changed, and whether it was left to itself. */
+ * points. */
 typedef struct {
     size_t first, last, n, cap, nentry, cap_entry, bonds;
     int    stale;
-    unsigned char  *known;
     galerkin_run   *run;
     galerkin_entry *entry;
 } galerkin_run_list;
-void galerkin_runs_find   (const galerkin *g, galerkin_run_list *list);
-void galerkin_runs_change (galerkin_run_list *list, size_t p);         /* the row of point p has changed */
-void galerkin_runs_forget (galerkin_run_list *list);                   /* any row may have changed */
-void galerkin_runs_clear  (galerkin_run_list *list);
+void galerkin_runs_find  (const galerkin *g, galerkin_run_list *list);
+void galerkin_runs_clear (galerkin_run_list *list);
 /* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on; active: blocks of
  * points that x is not zero at (NULL: all). */
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *list, const galerkin_run *run,

@@ -15,11 +15,8 @@
  * found by comparing their rows, number by number: bodies with holes, cracks, cut cells, broken bonds and
  * materials need no rule of their own, and what is like nothing else is summed point by point. Derivatives
  * may differ by 1e-11 of the largest of their point, which is what rounding of positions makes of them. The
- * runs are a function of the rows alone, so that a run that goes on from a checkpoint has the same ones.
- *
- * Where some rows have changed since, the search from left to right is the one of before wherever it comes to
- * a group that it came to then, and no row has changed that was looked at from there: such runs are taken
- * over, and such groups left to themselves again. */
+ * runs are a function of the rows alone, so that a run that goes on from a checkpoint has the same ones; a
+ * slice of the points looks for them again where one of its rows has changed. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +50,9 @@ static double steepest (const pg_rows *r, size_t p)
     return most;
 }
 
-/* Has point p the derivatives of point q, up to `bound`, for nodes that are `shift` higher? */
-static int alike (const galerkin *g, size_t q, size_t p, int shift, double bound)
+/* Has point p the derivatives of point q, up to rounding, for nodes that are `shift` higher? bound: by how
+ * much they may differ, negative until it is known. */
+static int alike (const galerkin *g, size_t q, size_t p, int shift, double *bound)
 {
     const pg_rows *r = &g->sums;
     size_t a = r->family.start[q], b = r->family.start[p], m = r->family.start[q + 1] - a,
@@ -66,8 +64,10 @@ static int alike (const galerkin *g, size_t q, size_t p, int shift, double bound
     const double *s = r->dN + (a + pg_rows_offset (r, q)) * dim,
                  *t = r->dN + (b + pg_rows_offset (r, p)) * dim;
     if (s == t) return 1;
+    if (*bound < 0) *bound = rounding * steepest (r, q);
+    double most = *bound;
     same = 0;
-    for (size_t k = 0; k < m * dim; k++) same += fabs (t[k] - s[k]) <= bound;
+    for (size_t k = 0; k < m * dim; k++) same += fabs (t[k] - s[k]) <= most;
     return same == m * dim;
 }
 
@@ -88,11 +88,11 @@ static size_t count_alike (const galerkin *g, size_t p, size_t end, size_t last)
 {
     double bound[MOST];
     size_t m = end - p, count = 1;
-    for (size_t q = 0; q < m; q++) bound[q] = rounding * steepest (&g->sums, p + q);
+    for (size_t q = 0; q < m; q++) bound[q] = -1;
     for (size_t at = end; at + m <= last; at += m, count++) {
         if (group_end (&g->sums, p, last, at) != at + m) break;
         for (size_t q = 0; q < m; q++)
-            if (!alike (g, p + q, at + q, (int) count, bound[q])
+            if (!alike (g, p + q, at + q, (int) count, &bound[q])
                 || (g->kept && !weighs_alike (g, p + q, at + q, (int) count)))
                 return count;
     }
@@ -131,18 +131,6 @@ done:
     return status;
 }
 
-/* What is known of a point of the list since runs were last found. */
-enum { CHANGED = 1, ALONE = 2 };
-
-/* Are the rows of points p .. end - 1, as far as they are of this list, those of the last search? */
-static int unchanged (const galerkin_run_list *l, size_t p, size_t end)
-{
-    int changed = 0;
-    end = end < l->last ? end : l->last;
-    for (size_t i = p; i < end; i++) changed |= l->known[i - l->first] & CHANGED;
-    return !changed;
-}
-
 /* Have N and dN of all groups the bits of the group before? Rows that move later keep their bits as long as
  * the run is not stale. */
 static int has_one_row (const pg_rows *r, const galerkin_run *run)
@@ -158,89 +146,42 @@ static int has_one_row (const pg_rows *r, const galerkin_run *run)
     return same;
 }
 
-/* A run of before and its entries. */
-static pg_status take_over (galerkin_run_list *l, const galerkin_run_list *old, const galerkin_run *run)
-{
-    pg_status status = PG_OK;
-    PG_GROW (l->run, l->cap, l->n + 1);
-    PG_GROW (l->entry, l->cap_entry, l->nentry + run->entries);
-    memcpy (l->entry + l->nentry, old->entry + run->entry, run->entries * sizeof *l->entry);
-    l->run[l->n] = *run;
-    l->run[l->n++].entry = l->nentry;
-    l->nentry += run->entries, l->bonds += run->entries * run->count;
-done:
-    return status;
-}
-
-/* What an earlier search knew of its points says nothing of the rows that they have now. */
 static pg_status new_run (const galerkin *g, galerkin_run_list *l, galerkin_run run)
 {
     pg_status status = PG_OK;
     PG_GROW (l->run, l->cap, l->n + 1);
     PG_TRY (list_entries (g, l, &run));
     run.same = has_one_row (&g->sums, &run);
-    for (size_t i = 0; i < run.points * run.count; i++) l->known[run.point - l->first + i] &= CHANGED;
     l->run[l->n++] = run, l->bonds += run.entries * run.count;
 done:
     return status;
 }
 
-/* From left to right: the longest run that begins at a group, or the group is left to itself. A run ends
- * where it does by the group behind it, and a group is alone by the LEAST groups from it on. */
-static pg_status find_runs (const galerkin *g, galerkin_run_list *l, const galerkin_run_list *old)
+/* From left to right: the longest run that begins at a group, or the group is left to itself. */
+static pg_status find_runs (const galerkin *g, galerkin_run_list *l)
 {
     pg_status status = PG_OK;
-    size_t next = 0;                                   /* run of before */
-    for (size_t p = l->first; p < l->last; ) {
-        size_t end = group_end (&g->sums, l->first, l->last, p), m = end ? end - p : 1;
-        unsigned char *known = l->known + (p - l->first);
-        while (next < old->n && old->run[next].point < p) next++;
-        if (next < old->n && old->run[next].point == p
-            && unchanged (l, p, p + m * (old->run[next].count + 1))) {
-            PG_TRY (take_over (l, old, &old->run[next]));
-            p += m * old->run[next].count;
-            continue;
-        }
-        int again = (*known & ALONE) && unchanged (l, p, p + m * LEAST);
-        size_t count = end && !again ? count_alike (g, p, end, l->last) : 0;
-        if (count < LEAST) *known |= ALONE;
-        else PG_TRY (new_run (g, l, (galerkin_run) { .point = p, .points = m, .count = count }));
-        p += count < LEAST ? m : m * count;
+    for (size_t p = l->first, m, count; p < l->last; p += count < LEAST ? m : m * count) {
+        size_t end = group_end (&g->sums, l->first, l->last, p);
+        m = end ? end - p : 1, count = end ? count_alike (g, p, end, l->last) : 0;
+        if (count >= LEAST)
+            PG_TRY (new_run (g, l, (galerkin_run) { .point = p, .points = m, .count = count }));
     }
 done:
     return status;
 }
 
-void galerkin_runs_change (galerkin_run_list *l, size_t p)
-{
-    l->stale = 1;
-    if (l->known) l->known[p - l->first] |= CHANGED;
-}
-
-void galerkin_runs_forget (galerkin_run_list *l)
-{
-    l->stale = 1, l->n = l->nentry = l->bonds = 0;
-    if (l->known) memset (l->known, 0, l->last - l->first);
-}
-
 /* Without memory there are no runs, and all points are summed one by one. */
 void galerkin_runs_find (const galerkin *g, galerkin_run_list *l)
 {
-    pg_status status = PG_OK;
-    galerkin_run_list old = *l;
     if (!l->stale) return;
-    l->run = NULL, l->entry = NULL, l->stale = 0;
-    l->n = l->cap = l->nentry = l->cap_entry = l->bonds = 0;
-    PG_TRY (find_runs (g, l, &old));
-    for (size_t i = 0; i < l->last - l->first; i++) l->known[i] &= ALONE;
-done:
-    if (status != PG_OK) galerkin_runs_forget (l), l->stale = 0;
-    pg_free (old.run), pg_free (old.entry);
+    l->stale = 0, l->n = l->nentry = l->bonds = 0;
+    if (find_runs (g, l) != PG_OK) l->n = l->nentry = l->bonds = 0;
 }
 
 void galerkin_runs_clear (galerkin_run_list *l)
 {
-    pg_free (l->run), pg_free (l->entry), pg_free (l->known);
+    pg_free (l->run), pg_free (l->entry);
     memset (l, 0, sizeof *l);
 }
 

@@ -64,7 +64,6 @@ pg_status galerkin_slices_create (galerkin *g)
     s->has_runs = g->dim > 1 && !g->problem->plain;
     for (size_t k = 0; k < SLICES && s->has_runs; k++) {
         s->runs[k] = (galerkin_run_list) { .first = s->first[k], .last = s->first[k + 1], .stale = 1 };
-        PG_ALLOC (s->runs[k].known, s->first[k + 1] - s->first[k]);
         for (int c = 0; c < g->dim; c++) PG_ALLOC (s->part[k][c], s->high[k] - s->low[k] + GALERKIN_LANES);
     }
     for (int c = 0; c < g->dim && s->has_runs; c++) PG_ALLOC (s->component[c], g->n + GALERKIN_LANES);
@@ -77,11 +76,11 @@ done:
 void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list)
 {
     galerkin_slices *s = g->slices;
-    for (size_t k = 0; k < SLICES && s && !list; k++) galerkin_runs_forget (&s->runs[k]);
+    for (size_t k = 0; k < SLICES && s && !list; k++) s->runs[k].stale = 1;
     for (size_t i = 0, k = 0; i < count && list; i++) {
         while (list[i] >= s->first[k + 1]) k++;
         while (list[i] < s->first[k]) k--;
-        galerkin_runs_change (&s->runs[k], list[i]);
+        s->runs[k].stale = 1;
     }
 }
 
