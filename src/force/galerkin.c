@@ -139,7 +139,8 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
         int known = changes && g->measured.fresh[s] && !g->dilatation;
         g->measured.fresh[s] = 0;
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], -1));
-        if (n && !galerkin_borrows (g, s)) PG_TRY (galerkin_evaluate (g, state, s, n, changes ? g->list[s] : NULL));
+        if (n && !galerkin_borrows (g, s))
+            PG_TRY (galerkin_evaluate (g, state, s, n, changes ? g->list[s] : NULL));
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], 1));
         if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
         if (s == g->bulk) {
