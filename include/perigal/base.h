@@ -248,5 +248,9 @@ static inline int pg_disjoint_join (int *parent, int a, int b)
     parent[below] = root;
     return root;
 }
+
+/* The name of "a|b|c" nearest to a word, for messages; NULL: none is near. Valid until the next call on
+ * this thread. */
+const char *pg_nearest_name (const char *word, const char *choices);
 PG_API_END
 #endif

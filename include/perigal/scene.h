@@ -199,7 +199,7 @@ double    pg_column_value (double value, double scale);
 /* ---- expressions --------------------------------------------------------------------------------------- */
 /* A compiled expression. Variables: x y z r (m), angle (rad, atan2 (y, x) in [0, 2 pi)), t (s; in a static
  * scene the load factor 0 to 1). Numbers may carry units; + - * / ^, comparisons, and or not, functions
- * (see src/scene/expression.c), pi. Comparing or adding different units is an error. */
+ * (see src/scene/quantity/expression.c), pi. Comparing or adding different units is an error. */
 typedef struct pg_expression pg_expression;
 /* Values of the variables. */
 typedef struct { double x, y, z, r, angle, t; } pg_place;
@@ -223,8 +223,5 @@ pg_status pg_scene_help     (FILE *to, const char *key);
 pg_status pg_scene_manual   (FILE *to);
 /* Writes the keys as a JSON schema (draft 7), for editors. */
 pg_status pg_scene_json_schema (FILE *to);
-/* The name of "a|b|c" nearest to a word, for messages; NULL: none is near. Valid until the next call on
- * this thread. */
-const char *pg_nearest_name (const char *word, const char *choices);
 PG_API_END
 #endif

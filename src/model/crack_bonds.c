@@ -2,8 +2,8 @@
  * Cracks that grow in a state: their geometry changes on a copy (crack_paths.c, crack_surfaces.c), which
  * takes its place when all has gone well, and the bonds that the new pieces cut are found, facets in the
  * plane and triangles in space. Only the new ones are asked, through an index of their own
- * (geometry/cloud/crack_index.c): first the box of all of them, then for each point the boxes near it, then
- * its bonds. */
+ * (geometry/cloud/body/crack_index.c): first the box of all of them, then for each point the boxes near it,
+ * then its bonds. */
 #include "crack_surfaces.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Triangles between two lines of vertices, where a surface ended and where it ends now. Triangles share their
  * vertices, so that their planes meet in the same two places to the last bit, and what passes between two of
- * them passes within rounding of an edge, which counts as a cut (geometry/cloud/crack.c). */
+ * them passes within rounding of an edge, which counts as a cut (geometry/cloud/body/crack.c). */
 #include "crack_surfaces.h"
 #include <string.h>
 

@@ -2,7 +2,7 @@
  * Values by path: what the user wrote, or the default of the key. Values were checked when the scene was
  * read, so that these functions cannot fail: what is absent is 0 or NULL. */
 #include "document.h"
-#include "unit.h"
+#include "scene/quantity/unit.h"
 #include "value.h"
 #include <math.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
  * Checks the tree of a scene against the key tables: unknown, missing, repeated and wrongly shaped keys,
  * groups. Single values are checked by value.c. Faults are collected and do not stop the walk. */
 #include "document.h"
-#include "unit.h"
+#include "scene/quantity/unit.h"
 #include "value.h"
 #include <string.h>
 

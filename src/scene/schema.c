@@ -3,7 +3,7 @@
  * chosen by the user and [] for an element of a list: "materials.{}.density", "body[].add.disk.radius". All
  * searches are linear in the number of rows, some hundreds. */
 #include "schema.h"
-#include "unit.h"
+#include "scene/quantity/unit.h"
 #include <string.h>
 
 pg_status pg_schema_create (pg_schema *s, const pg_vocabulary *from)

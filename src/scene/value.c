@@ -6,8 +6,8 @@
  * other parts of the scene, such as sets, are checked as far as the text alone allows; the rest is found
  * when these parts exist. */
 #include "value.h"
-#include "expression.h"
-#include "unit.h"
+#include "scene/quantity/expression.h"
+#include "scene/quantity/unit.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * Any bytes as a file of points (first byte: the dimension): points with positive volumes and places of their
  * own, or a fault. */
 #include "fuzz.h"
-#include "geometry/cloud/points_file.h"
+#include "geometry/cloud/body/points_file.h"
 #include <math.h>
 
 

@@ -3,7 +3,7 @@
 #include "plate.h"
 #include "scene/keys/keys.h"
 #include "scene/sha256.h"
-#include "scene/unit.h"
+#include "scene/quantity/unit.h"
 #include <stdlib.h>
 
 static pg_schema plate_schema (void)

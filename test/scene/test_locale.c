@@ -2,7 +2,7 @@
  * Numbers of scenes have decimal points, also in a program whose locale has commas: its localeconv and strtod
  * are those of this file, as there is no such locale on every machine. */
 #include "check.h"
-#include "scene/unit.h"
+#include "scene/quantity/unit.h"
 #include <locale.h>
 #include <stdlib.h>
 

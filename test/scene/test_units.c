@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Numbers with units: values, refusals and their words. */
 #include "check.h"
-#include "scene/unit.h"
+#include "scene/quantity/unit.h"
 
 static double value (const char *text, const char *unit)
 {

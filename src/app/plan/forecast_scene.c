@@ -298,7 +298,8 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     } else {
         PG_TRY (pg_cloud_build (&c, &l, body, scene));
         /* its text and its points, which grow up to twice their length, and the list by which those that are
-         * there twice are found, with a copy to sort it (geometry/cloud/points_file.c): measured on 8 ranks
+         * there twice are found, with a copy to sort it (geometry/cloud/body/points_file.c): measured on 8
+         * ranks
          * */
         f->reading = 2 * bytes_of_file (scene, "points") + (132 + 16 * (double) c.dim) * (double) c.n;
     }

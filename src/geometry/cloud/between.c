@@ -11,8 +11,8 @@
  * a little way inside its elements, which tells the two nodes apart that lie at one place on both sides
  * of a seam. */
 #include "between.h"
-#include "shape.h"
-#include "solid.h"
+#include "geometry/cloud/body/shape.h"
+#include "geometry/cloud/body/solid.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

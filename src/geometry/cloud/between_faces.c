@@ -6,7 +6,7 @@
  * Pieces are put in an order in which neighbours lie near each other, GROUP at a time in a block, as
  * many blocks in a larger one, and so on up to one block that holds all (as in crack_index.c). */
 #include "between.h"
-#include "tree.h"
+#include "geometry/cloud/search/tree.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
  * Where a straight way runs outside of a shape: in closed form, by cutting the way at planes and at round
  * surfaces; of polygons by the edges that it meets. And lists of gaps: their intersection and union. */
 #include "between.h"
-#include "polygon.h"
+#include "geometry/cloud/search/polygon.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
  * (family_tree.c) for points that lie too scattered for boxes. */
 #ifndef PERIGAL_CLOUD_FAMILY_H
 #define PERIGAL_CLOUD_FAMILY_H
-#include "boxes.h"
+#include "geometry/cloud/search/boxes.h"
 #include <math.h>
 
 /* The distance up to which points belong to a family, m: a margin of 1e-9, and the rounding of coordinates,

@@ -3,7 +3,7 @@
  * the points then visit, in ascending order, the centres near them, so that each family comes out sorted.
  * O(n log n), however crowded some places are. */
 #include "family.h"
-#include "tree.h"
+#include "geometry/cloud/search/tree.h"
 #include <math.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
  * may instead be ellipses that are stretched as the elements at a point are (doc/method.md, Anisotropic
  * supports). */
 #include "place.h"
-#include "mesh_body.h"
+#include "geometry/cloud/body/mesh_body.h"
 #include <math.h>
 #include <string.h>
 

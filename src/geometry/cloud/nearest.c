@@ -2,7 +2,7 @@
  * The nearest point of a set, by the k-d tree of tree.h. Of equally near points it is the one with the lowest
  * number: no answer depends on the order in which the tree is walked. */
 #include "perigal/cloud.h"
-#include "tree.h"
+#include "geometry/cloud/search/tree.h"
 #include <limits.h>
 #include <math.h>
 

@@ -3,7 +3,7 @@
  * then z; or from a file. */
 #include "perigal/cloud.h"
 #include "place.h"
-#include "points_file.h"
+#include "geometry/cloud/body/points_file.h"
 #include "subdomain.h"
 #include <limits.h>
 #include <math.h>
@@ -51,22 +51,6 @@ pg_status cloud_count_around (sites *s, const pg_lattice *l, int cells)
     for (size_t i = 0; cells && i < s->n; i++) if (!l->in[i]) s->around[i] = 0;
 done:
     return status;
-}
-
-/* ---- random shifts ------------------------------------------------------------------------------------- */
-/* A bijection that spreads every bit (the finaliser of splitmix64). */
-static uint64_t mix (uint64_t z)
-{
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-/* 53 random bits as a number in [-1, 1), from a hash of seed, site and axis. */
-double pg_place_shift (uint64_t seed, uint64_t site, int axis)
-{
-    uint64_t z = mix (mix (seed + 0x9e3779b97f4a7c15u) + 3 * site + (uint64_t) axis + 1);
-    return ldexp ((double) (z >> 11), -52) - 1;
 }
 
 /* ---- the cloud ----------------------------------------------------------------------------------------- */

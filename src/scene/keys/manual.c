@@ -2,7 +2,7 @@
  * Writes doc/input.md: an introduction, then one section with a table of keys for each word at the top of a
  * scene. */
 #include "keys.h"
-#include "scene/expression.h"
+#include "scene/quantity/expression.h"
 #include <string.h>
 
 /* Text before the tables. */

@@ -3,7 +3,7 @@
  * at a level of 1 %, seeds fixed), distances, amounts, places, seeds, units; and the generator against GSL.
  */
 #include "parsed.h"
-#include "../../../src/geometry/cloud/random.h"
+#include "../../../src/geometry/cloud/search/random.h"
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf_bessel.h>

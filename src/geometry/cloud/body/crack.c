@@ -11,7 +11,7 @@
  * the normal shows to, and a bond is cut if its ends lie on different sides and it crosses the line or plane
  * within the segment or triangle. */
 #include "perigal/cloud.h"
-#include "polygon.h"
+#include "geometry/cloud/search/polygon.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  * finds it as the lower hull of the points lifted to a paraboloid. The library is loaded when it is first
  * needed (base/library.c). */
 #include "delaunay.h"
-#include "place.h"
+#include "random.h"
 #include <libqhull_r/libqhull_r.h>
 #include <limits.h>
 #include <math.h>

@@ -131,3 +131,19 @@ void random_fisher (random_source *r, double concentration, double direction[3])
     double across = sqrt (1 - h * h);
     direction[0] = across * c, direction[1] = across * s, direction[2] = h;
 }
+
+/* ---- shifts of places ------------------------------------------------------------------------------------ */
+/* A bijection that spreads every bit (the finaliser of splitmix64). */
+static uint64_t mix (uint64_t z)
+{
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/* 53 random bits as a number in [-1, 1), from a hash of seed, site and axis. */
+double pg_place_shift (uint64_t seed, uint64_t site, int axis)
+{
+    uint64_t z = mix (mix (seed + 0x9e3779b97f4a7c15u) + 3 * site + (uint64_t) axis + 1);
+    return ldexp ((double) (z >> 11), -52) - 1;
+}

@@ -8,7 +8,7 @@
  * Random numbers and whatever decides about them use the functions of random.c only, so that a seed gives one
  * network on every machine. */
 #include "crack_random.h"
-#include "crack_distance.h"
+#include "geometry/cloud/search/crack_distance.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

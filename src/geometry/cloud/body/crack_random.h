@@ -4,7 +4,7 @@
 #ifndef PERIGAL_CLOUD_CRACK_RANDOM_H
 #define PERIGAL_CLOUD_CRACK_RANDOM_H
 #include "crack.h"
-#include "random.h"
+#include "geometry/cloud/search/random.h"
 
 /* Distributions of a number. */
 enum { CRACK_FIXED, CRACK_UNIFORM, CRACK_NORMAL, CRACK_LOGNORMAL, CRACK_EXPONENTIAL, CRACK_POWER_LAW,

@@ -2,7 +2,7 @@
  * Volume and surface of a body of one shape: in closed form, or by quadrature over the elements of a mesh.
  * The plan of a run compares these with the sums over cells and facets. */
 #include "shape.h"
-#include "polygon.h"
+#include "geometry/cloud/search/polygon.h"
 #include <math.h>
 
 /* Area and length of the outline. */

@@ -10,7 +10,7 @@
  *
  * The bound comes from the Lanczos matrix of a few steps of conjugate gradients. */
 #include "multilevel.h"
-#include "wide.h"
+#include "linalg/wide.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The nearest of some names, to suggest in messages: edit distance with swaps of neighbours, regardless of
  * case. */
-#include "perigal/scene.h"
+#include "perigal/base.h"
 #include <ctype.h>
 #include <string.h>
 

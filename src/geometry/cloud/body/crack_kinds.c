@@ -2,7 +2,7 @@
  * Kinds of cracks from their numbers: segments and outlines in the plane; polygons, discs and ellipses in
  * space. What is wrong with one is said in words, so that the caller can add key or line. */
 #include "crack.h"
-#include "polygon.h"
+#include "geometry/cloud/search/polygon.h"
 #include "perigal/vector.h"
 #include <float.h>
 #include <math.h>

@@ -2,8 +2,8 @@
  * What the cracks of a scene amount to: number, sizes, directions, distances, and how much of them the body
  * holds. */
 #include "crack.h"
-#include "crack_distance.h"
-#include "polygon.h"
+#include "geometry/cloud/search/crack_distance.h"
+#include "geometry/cloud/search/polygon.h"
 #include <math.h>
 #include <string.h>
 

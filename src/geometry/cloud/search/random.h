@@ -20,6 +20,9 @@ void   random_von_mises (random_source *r, double concentration, double directio
 /* Unit vector of Fisher's distribution about the z axis; concentration 0: uniform on the sphere. */
 void   random_fisher    (random_source *r, double concentration, double direction[3]);
 
+/* Uniform in [-1, 1), a function of seed, site and axis only: independent of order and threads. */
+double pg_place_shift (uint64_t seed, uint64_t site, int axis);
+
 /* Elementary functions to a few units in the last place, the same bits everywhere. */
 double settled_log (double x);
 double settled_exp (double x);

@@ -4,8 +4,8 @@
  * simplices whose circumscribed sphere is no larger than alpha. What remains empty is what a ball of that
  * radius reaches without touching a point inside it. */
 #include "perigal/cloud.h"
-#include "delaunay.h"
-#include "tree.h"
+#include "geometry/cloud/search/delaunay.h"
+#include "geometry/cloud/search/tree.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
  * the places b s to (b + 1) s - 1 of the order, s = PG_CRACK_GROUP^(l + 1); the boxes of the levels follow
  * each other in `block`. */
 #include "perigal/cloud.h"
-#include "tree.h"
+#include "geometry/cloud/search/tree.h"
 #include <math.h>
 #include <string.h>
 

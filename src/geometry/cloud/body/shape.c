@@ -5,7 +5,7 @@
  * answers whether a ball may meet the body (crack_read.c). For intersections of two sets whose surfaces are
  * at right angles (cylinder, prism) the distance is sqrt (p^2 + q^2) outside both, else the larger one. */
 #include "shape.h"
-#include "polygon.h"
+#include "geometry/cloud/search/polygon.h"
 #include "perigal/vector.h"
 #include <math.h>
 

@@ -9,9 +9,9 @@
  * A column of numbers of the points (id) is not used, which is noted in the cloud.
  *
  * Two points at one position are a fault, because a bond between them would have no length. */
-#include "csv_line.h"
+#include "geometry/cloud/search/csv_line.h"
 #include "points_file.h"
-#include "place.h"
+#include "geometry/cloud/place.h"
 #include <errno.h>
 #include <limits.h>
 #include <math.h>

@@ -10,7 +10,7 @@
  * Without a header the first two orders are expected. Numbers are written with 17 digits in m, so that a
  * table that was written is read as the same bits. */
 #include "crack.h"
-#include "csv_line.h"
+#include "geometry/cloud/search/csv_line.h"
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
