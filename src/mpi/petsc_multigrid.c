@@ -3,7 +3,7 @@
  * and M. Brezina, Computing 56 (1996) 179; PETSc's GAMG) of the rows that each owns, with the rigid motions
  * of the points as near null space. Nodes are numbered rank by rank. Prescribed unknowns have rows of their
  * own that nothing couples with. The rows are those of K, or of the first coarse grid on a lattice, to which
- * several ranks add (src/linalg/multilevel/multilevel_ranks.c). */
+ * several ranks add (src/linalg/preconditioner/multilevel_ranks.c). */
 #include "petsc_factor.h"
 #include "petsc_library.h"
 #include <mpi.h>

@@ -13,7 +13,7 @@ static const double of_levels[4] = { 0, 1.45, 1.45, 2.8 }, of_gathered = 2.5, of
 
 static void add (pg_forecast *f, int item, double bytes) { f->bytes[item] += bytes, f->peak += bytes; }
 
-/* Bytes of what is below the finest grid (linalg/multilevel/multilevel_ranks.c), PETSc too if it is
+/* Bytes of what is below the finest grid (linalg/preconditioner/multilevel_ranks.c), PETSc too if it is
  * that, of `total`
  * points on so many ranks. Of shape functions the first coarse grid has 2.5 times the step of the lattice
  * with what its functions have beside the body (a block of 331 056 points has 22 016), and functions see

@@ -4,7 +4,6 @@
  * An element can serve as a cell if its map is invertible: the Jacobian must be positive at all nodes and
  * quadrature points. Its quality, the scaled Jacobian of the element with straight edges, is only reported.
  */
-#include "geometry/cloud/place.h"
 #include "mesh_body.h"
 #include "perigal/mesh_files.h"
 #include <math.h>

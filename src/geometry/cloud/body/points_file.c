@@ -11,7 +11,6 @@
  * Two points at one position are a fault, because a bond between them would have no length. */
 #include "geometry/cloud/search/csv_line.h"
 #include "points_file.h"
-#include "geometry/cloud/place.h"
 #include <errno.h>
 #include <limits.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Coarse functions over the nodes of any cloud: multilinear functions on a grid, split where cracks run
  * through (multilevel_space.c), for coarse spaces whose matrix the caller sums up. */
-#include "linalg/multilevel/multilevel.h"
+#include "multilevel.h"
 #include <math.h>
 #include <string.h>
 

@@ -18,9 +18,9 @@
  * p interpolates a given function at the Chebyshev nodes of [low, high] and is evaluated by the recurrence
  * T_k+1 = 2 s T_k - T_k-1 of s = (x - middle) / half. */
 #include "perigal/linalg.h"
-#include "alike.h"
+#include "linalg/alike.h"
 #include "shared_springs.h"
-#include "wide.h"
+#include "linalg/wide.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
