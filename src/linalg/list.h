@@ -3,3 +3,4 @@
 PG_LINEAR (cholmod)
 PG_LINEAR (umfpack)
 PG_LINEAR (pcg)
+PG_LINEAR (skyline)
