@@ -3,6 +3,7 @@
  * disjoint sets. Knows no physics. */
 #ifndef PERIGAL_BASE_H
 #define PERIGAL_BASE_H
+#include <limits.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -130,24 +131,55 @@ typedef struct {
     pg_status (*counts)  (void *context, const char *name, size_t n, long *value);
     pg_status (*bytes)   (void *context, const char *name, size_t n, void *value);
 } pg_keeper;
-/* What is read back must lie where the rest of the program may rely on it. */
-#define PG_KEEP_BOUND(k, name, value, low, high) \
-    do { \
-        if ((k)->reading && ((value) < (low) || (value) > (high))) \
-            PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
-                     (long) (value), (long) (low), (long) (high)); \
-    } while (0)
-/* A list of records as two arrays of a checkpoint: whole numbers (n x counts) and numbers (n x numbers). */
+/* What is read back must lie where the rest of the program may rely on it, else PG_E_FILE. */
+pg_status pg_kept_within (const char *what, long value, long low, long high);
+#define PG_KEEP_BOUND(k, what, value, low, high) \
+    do { if ((k)->reading) PG_TRY (pg_kept_within ((what), (long) (value), (long) (low), (long) (high))); } \
+    while (0)
+
+/* A row of the table of fields by which a struct is kept: where the field is, its bytes, how far away that of
+ * the next struct of a list is, its type, and for whole numbers the bounds and what a message calls it. */
+typedef enum {
+    PG_KEPT_END, PG_KEPT_DOUBLE, PG_KEPT_LONG, PG_KEPT_INT, PG_KEPT_UNSIGNED, PG_KEPT_SIZE, PG_KEPT_CHAR,
+    PG_KEPT_BYTE, PG_KEPT_TYPES
+} pg_kept_type;
 typedef struct {
-    const char *count_name, *number_name;
-    size_t n, counts, numbers;
-    /* Writes record i into its whole numbers and its numbers; reads it back from them, bounds looked at
-     * first (PG_KEEP_BOUND). */
-    void      (*give) (void *context, size_t i, long *count, double *number);
-    pg_status (*take) (void *context, size_t i, const long *count, const double *number, const pg_keeper *k);
-    void *context;
-} pg_records;
-pg_status pg_keep_records (const pg_keeper *k, const pg_records *records);
+    void *at;  size_t bytes, stride;  pg_kept_type type;  long low, high;  const char *what;
+} pg_kept;
+#define PG_KEPT_TYPE(x) _Generic ((x), double: PG_KEPT_DOUBLE, double *: PG_KEPT_DOUBLE, \
+    double (*)[2]: PG_KEPT_DOUBLE, double (*)[2][2]: PG_KEPT_DOUBLE, long: PG_KEPT_LONG, \
+    long *: PG_KEPT_LONG, int: PG_KEPT_INT, int *: PG_KEPT_INT, unsigned: PG_KEPT_UNSIGNED, \
+    size_t: PG_KEPT_SIZE, size_t *: PG_KEPT_SIZE, char: PG_KEPT_CHAR, unsigned char: PG_KEPT_BYTE)
+#define PG_KEPT_ROW(at, bytes, stride, x, low, high, what) \
+    { (void *) (at), (bytes), (stride), PG_KEPT_TYPE (x), (long) (low), (long) (high), (what) }
+#define PG_ROWS(...) (const pg_kept[]) { __VA_ARGS__, { 0 } }
+/* A variable, or an array of fixed size; a field of every struct of a list; m values of an array for every
+ * struct. ..._IN: whole numbers from low to high. */
+#define PG_KEPT(x)            PG_KEPT_IN (x, LONG_MIN, LONG_MAX, NULL)
+#define PG_EACH(list, field)  PG_EACH_IN (list, field, LONG_MIN, LONG_MAX, NULL)
+#define PG_ITEMS(array, m)    PG_ITEMS_IN (array, m, LONG_MIN, LONG_MAX, NULL)
+#define PG_KEPT_IN(x, low, high, what)  PG_KEPT_ROW (&(x), sizeof (x), 0, x, low, high, what)
+#define PG_EACH_IN(list, field, low, high, what) \
+    PG_KEPT_ROW ((list) ? &(list)->field : NULL, sizeof (list)->field, sizeof *(list), (list)->field, low, \
+                 high, what)
+#define PG_ITEMS_IN(array, m, low, high, what) \
+    PG_KEPT_ROW (array, (m) * sizeof *(array), (m) * sizeof *(array), *(array), low, high, what)
+/* The fields of n structs as two arrays of a checkpoint: OBJECT.COUNTS has the whole numbers, OBJECT.NUMBERS
+ * the others, struct by struct in the order of the rows; NULL where there are none. When they are read back,
+ * nothing changes unless all whole numbers are within their bounds. */
+pg_status pg_keep_fields (const pg_keeper *k, const char *object, const char *counts, const char *numbers,
+                          size_t n, const pg_kept *rows);
+/* OBJECT.NAME, the length of a list, and room for it when it is read back. */
+#define PG_KEEP_LENGTH(k, object, name, list, n, cap, most, what) \
+    do { \
+        PG_TRY (pg_keep_fields ((k), (object), (name), NULL, 1, PG_ROWS (PG_KEPT_IN (n, 0, most, what)))); \
+        if ((k)->reading) PG_GROW (list, cap, n); \
+    } while (0)
+pg_status pg_keep_numbers (const pg_keeper *k, const char *object, const char *name, size_t n, double *value);
+/* Bytes from 0 to `most`; a text of fixed size, ended whatever is read. */
+pg_status pg_keep_bytes   (const pg_keeper *k, const char *name, size_t n, unsigned char *byte, int most,
+                           const char *what);
+pg_status pg_keep_text    (const pg_keeper *k, const char *name, size_t size, char *text);
 
 /* ---- clock and threads --------------------------------------------------------------------------------- */
 /* Monotonic wall clock, s. */

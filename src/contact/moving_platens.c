@@ -384,26 +384,19 @@ void pg_moving_platens_return (pg_moving_platens *w)
 pg_status pg_moving_platens_keep (pg_moving_platens *w, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { VALUES = sizeof (platen_state) / sizeof (double) };
-    double *all = NULL;
-    double number[8] = { w->taken,        w->taken0,       w->work0,           w->now.work,
-                         w->now.energy,   w->now.friction, w->now.overlap_max, w->now.rate };
-    PG_TRY (k->numbers (k->context, "platens.numbers", 8, number));
-    w->taken = number[0], w->taken0 = number[1], w->work0 = number[2], w->now.work = number[3];
-    w->now.energy = number[4], w->now.friction = number[5], w->now.overlap_max = number[6],
-    w->now.rate = number[7];
+    one_platen *all = w->platen;
+    PG_TRY (pg_keep_fields (k, "platens", NULL, "numbers", 1, PG_ROWS (
+        PG_KEPT (w->taken), PG_KEPT (w->taken0), PG_KEPT (w->work0), PG_KEPT (w->now.work),
+        PG_KEPT (w->now.energy), PG_KEPT (w->now.friction), PG_KEPT (w->now.overlap_max),
+        PG_KEPT (w->now.rate))));
     PG_TRY (k->numbers (k->context, "platens.kinetic", 1, &w->now.kinetic));
-    PG_ALLOC (all, 2 * w->nplaten * VALUES);
-    for (size_t j = 0; !k->reading && j < w->nplaten; j++) {
-        memcpy (all + 2 * j * VALUES, &w->platen[j].now, sizeof w->platen[j].now);
-        memcpy (all + (2 * j + 1) * VALUES, &w->platen[j].start, sizeof w->platen[j].start);
-    }
-    PG_TRY (k->numbers (k->context, "platens.states", 2 * w->nplaten * VALUES, all));
+    PG_TRY (pg_keep_fields (k, "platens", NULL, "states", w->nplaten, PG_ROWS (
+        PG_EACH (all, now.u), PG_EACH (all, now.v), PG_EACH (all, now.force), PG_EACH (all, now.press),
+        PG_EACH (all, start.u), PG_EACH (all, start.v), PG_EACH (all, start.force),
+        PG_EACH (all, start.press))));
     for (size_t j = 0; j < w->nplaten; j++) {
-        one_platen *one = &w->platen[j];
+        const one_platen *one = &all[j];
         char name[64];
-        memcpy (&one->now, all + 2 * j * VALUES, sizeof one->now);
-        memcpy (&one->start, all + (2 * j + 1) * VALUES, sizeof one->start);
         if (!one->slip) continue;
         snprintf (name, sizeof name, "platens.slip.%zu", j);
         PG_TRY (k->numbers (k->context, name, 3 * w->problem->cloud.n, one->slip));
@@ -412,6 +405,5 @@ pg_status pg_moving_platens_keep (pg_moving_platens *w, const pg_keeper *k)
     }
     if (k->reading) w->looked = 0;
 done:
-    pg_free (all);
     return status;
 }

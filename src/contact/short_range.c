@@ -181,42 +181,15 @@ done:
     return status;
 }
 
-/* Slips and distances: two whole numbers and four numbers each. */
-typedef struct { near_memory *memory;  long npoint; } slip_list;
-
-static void give_slip (void *context, size_t i, long *ends, double *slip)
-{
-    const near_memory *m = &((const slip_list *) context)->memory[i];
-    ends[0] = m->i, ends[1] = m->j;
-    memcpy (slip, m->slip, sizeof m->slip), slip[3] = m->reach;
-}
-
-static pg_status take_slip (void *context, size_t i, const long *ends, const double *slip, const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    const slip_list *list = context;
-    for (int a = 0; a < 2; a++) PG_KEEP_BOUND (k, "a point in contact", ends[a], 0, list->npoint - 1);
-    list->memory[i] = (near_memory) { (int) ends[0], (int) ends[1], { slip[0], slip[1], slip[2] }, slip[3] };
-done:
-    return status;
-}
-
-static pg_status keep_slips (near_memory **memory, size_t *n, size_t *cap, const char *name, long npoint,
+static pg_status keep_slips (near_memory **memory, size_t *n, size_t *cap, const char *name, size_t npoint,
                              const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    char size[64], ends[64], slips[64];
-    long count = (long) *n;
-    snprintf (size, sizeof size, "%s.count", name), snprintf (ends, sizeof ends, "%s.ends", name);
-    snprintf (slips, sizeof slips, "%s.slips", name);
-    PG_TRY (k->counts (k->context, size, 1, &count));
-    PG_KEEP_BOUND (k, "the number of pairs in contact", count, 0, 1L << 40);
-    if (k->reading) PG_GROW (*memory, *cap, (size_t) count);
-    *n = (size_t) count;
-    slip_list list = { *memory, npoint };
-    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = ends, .number_name = slips, .n = *n,
-                                                .counts = 2, .numbers = 4, .give = give_slip,
-                                                .take = take_slip, .context = &list }));
+    PG_KEEP_LENGTH (k, name, "count", *memory, *n, *cap, 1L << 40, "the number of pairs in contact");
+    near_memory *m = *memory;
+    PG_TRY (pg_keep_fields (k, name, "ends", "slips", *n, PG_ROWS (
+        PG_EACH_IN (m, i, 0, npoint - 1, "a point in contact"),
+        PG_EACH_IN (m, j, 0, npoint - 1, "a point in contact"), PG_EACH (m, slip), PG_EACH (m, reach))));
 done:
     return status;
 }
@@ -225,16 +198,13 @@ done:
 pg_status pg_short_range_keep (pg_short_range *c, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long npoint = (long) c->near.problem->cloud.n;
-    double number[8] = { c->taken,           c->taken0,   c->now.energy, c->now.friction,
-                         c->now.overlap_max, c->now.rate, c->pending,    c->pending0 };
+    size_t npoint = c->near.problem->cloud.n;
     if (!k->reading) PG_TRY (near_collect (&c->near));
     PG_TRY (keep_slips (&c->near.memory, &c->near.nmemory, &c->near.cap_memory, "contact.slips", npoint, k));
     PG_TRY (keep_slips (&c->start, &c->nstart, &c->cap_start, "contact.slips0", npoint, k));
-    PG_TRY (k->numbers (k->context, "contact.numbers", 8, number));
-    c->taken = number[0], c->taken0 = number[1], c->now.energy = number[2], c->now.friction = number[3],
-    c->now.overlap_max = number[4], c->now.rate = number[5], c->pending = number[6],
-    c->pending0 = number[7];
+    PG_TRY (pg_keep_fields (k, "contact", NULL, "numbers", 1, PG_ROWS (
+        PG_KEPT (c->taken), PG_KEPT (c->taken0), PG_KEPT (c->now.energy), PG_KEPT (c->now.friction),
+        PG_KEPT (c->now.overlap_max), PG_KEPT (c->now.rate), PG_KEPT (c->pending), PG_KEPT (c->pending0))));
     if (k->reading) c->near.valid = 0;
 done:
     return status;

@@ -4,7 +4,6 @@
 #include "model.h"
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Vertices and retreats of the pieces lie in one block, and move with it. */
@@ -14,25 +13,15 @@ static void point_into_store (pg_crack_paths *w)
         w->cracks.crack[k].vertex = w->store + 6*k, w->cracks.crack[k].retreat = w->store + 6*k + 4;
 }
 
-#define GROW_TO(p, n) \
-    do { \
-        void *more_ = pg_resize ((p), (n), sizeof *(p)); \
-        if (!more_) PG_FAIL (PG_E_MEMORY, "no memory for %zu pieces of a crack", (size_t) (n)); \
-        (p) = more_; \
-    } while (0)
-
 /* Room for n pieces in all arrays. */
 pg_status pg_crack_paths_reserve (pg_crack_paths *w, size_t n)
 {
     pg_status status = PG_OK;
-    if (n <= w->capacity) return PG_OK;
-    size_t most = 2 * n + 16;
-    GROW_TO (w->cracks.crack, most);
-    GROW_TO (w->parent, most);
-    GROW_TO (w->path, most);
-    GROW_TO (w->owner, most);
-    GROW_TO (w->store, 6 * most);
-    w->capacity = most;
+    GROW_ALSO (w->cracks.crack, 1, w->capacity, n);
+    GROW_ALSO (w->parent, 1, w->capacity, n);
+    GROW_ALSO (w->path, 1, w->capacity, n);
+    GROW_ALSO (w->store, 6, w->capacity, n);
+    PG_GROW (w->owner, w->capacity, n);
 done:
     if (w->store) point_into_store (w);
     return status;
@@ -129,87 +118,35 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* Pieces: four whole numbers and nine numbers each. The normal is one of them: that of a piece of which a
- * part was split off, or of a crack of the scene, is another in its last digit than what its ends would
- * give. */
-static void give_piece (void *context, size_t i, long *count, double *number)
-{
-    const pg_crack_paths *w = context;
-    count[0] = w->cracks.crack[i].sided, count[1] = w->parent[i] == SIZE_MAX ? -1 : (long) w->parent[i];
-    count[2] = (long) w->path[i], count[3] = w->owner[i];
-    memcpy (number, w->store + 6*i, 6 * sizeof *number), number[6] = w->cracks.crack[i].width;
-    memcpy (number + 7, w->cracks.crack[i].normal, 2 * sizeof *number);
-}
-
-static pg_status take_piece (void *context, size_t i, const long *c, const double *number,
-                             const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    pg_crack_paths *w = context;
-    long n = (long) w->cracks.n;
-    PG_KEEP_BOUND (k, "the sides of a crack", c[0], 0, 1);
-    PG_KEEP_BOUND (k, "the parent of a crack", c[1], -1, n - 1);
-    PG_KEEP_BOUND (k, "the path of a crack", c[2], 0, n - 1);
-    pg_crack *piece = &w->cracks.crack[i];
-    if (i >= w->nfirst) *piece = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2 };
-    piece->sided = (int) c[0], piece->width = number[6];
-    memcpy (piece->normal, number + 7, 2 * sizeof *number);
-    w->parent[i] = c[1] < 0 ? SIZE_MAX : (size_t) c[1], w->path[i] = (size_t) c[2], w->owner[i] = c[3];
-    memcpy (w->store + 6*i, number, 6 * sizeof *number);
-done:
-    return status;
-}
-
-/* Tips: four whole numbers and four numbers each. */
-static void give_tip (void *context, size_t i, long *count, double *number)
-{
-    const pg_tip *t = &((const pg_crack_paths *) context)->tip[i];
-    const long whole[4] = { t->id, (long) t->segment, t->end, t->open };
-    const double real[4] = { t->x[0], t->x[1], t->offset, t->grown };
-    memcpy (count, whole, sizeof whole), memcpy (number, real, sizeof real);
-}
-
-static pg_status take_tip (void *context, size_t i, const long *c, const double *x, const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    pg_crack_paths *w = context;
-    PG_KEEP_BOUND (k, "the piece of a tip", c[1], 0, (long) w->cracks.n - 1);
-    PG_KEEP_BOUND (k, "the end of a tip", c[2], 0, 1);
-    PG_KEEP_BOUND (k, "whether a tip is open", c[3], 0, 1);
-    w->tip[i] = (pg_tip) { .id = c[0], .segment = (size_t) c[1], .end = (int) c[2], .open = (int) c[3],
-                           .x = { x[0], x[1] }, .offset = x[2], .grown = x[3] };
-done:
-    return status;
-}
-
-/* The counts first: arrays of that length follow. A facet has cut one bond at least. */
+/* The counts first: arrays of that length follow. A facet has cut one bond at least. The normal of a piece is
+ * kept too: that of a piece of which a part was split off, or of a crack of the scene, is another in its last
+ * digit than what its ends would give. */
 pg_status paths_keep (pg_crack_paths *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    char part[80];
-    long count[2] = { (long) w->cracks.n, (long) w->ntip };
-    snprintf (part, sizeof part, "%s.counts", name);
-    PG_TRY (k->counts (k->context, part, 2, count));
-    PG_KEEP_BOUND (k, "the number of cracks", count[0], (long) w->nfirst, most);
-    PG_KEEP_BOUND (k, "the number of tips", count[1], 0, 2 * count[0]);
-    snprintf (part, sizeof part, "%s.length", name);
-    PG_TRY (k->numbers (k->context, part, 1, &w->length));
+    size_t n = w->cracks.n, ntip = w->ntip;
+    PG_TRY (pg_keep_fields (k, name, "counts", "length", 1, PG_ROWS (
+        PG_KEPT_IN (n, w->nfirst, most, "the number of cracks"),
+        PG_KEPT_IN (ntip, 0, 2 * most, "the number of tips"), PG_KEPT (w->length))));
+    PG_KEEP_BOUND (k, "the number of tips", ntip, 0, 2 * n);
     if (k->reading) {
-        PG_TRY (pg_crack_paths_reserve (w, (size_t) count[0]));
-        PG_GROW (w->tip, w->tip_capacity, (size_t) count[1]);
-        w->cracks.n = (size_t) count[0], w->ntip = (size_t) count[1];
+        PG_TRY (pg_crack_paths_reserve (w, n));
+        PG_GROW (w->tip, w->tip_capacity, ntip);
+        w->cracks.n = n, w->ntip = ntip;
     }
-    char pieces[80], places[80], tips[80], tip_places[80];
-    snprintf (pieces, sizeof pieces, "%s.pieces", name), snprintf (places, sizeof places, "%s.places", name);
-    snprintf (tips, sizeof tips, "%s.tips", name);
-    snprintf (tip_places, sizeof tip_places, "%s.tip_places", name);
-    const pg_records list[2] = {
-        { .count_name = pieces, .number_name = places, .n = w->cracks.n, .counts = 4, .numbers = 9,
-          .give = give_piece, .take = take_piece, .context = w },
-        { .count_name = tips, .number_name = tip_places, .n = w->ntip, .counts = 4, .numbers = 4,
-          .give = give_tip, .take = take_tip, .context = w },
-    };
-    for (int i = 0; i < 2; i++) PG_TRY (pg_keep_records (k, &list[i]));
+    pg_crack *c = w->cracks.crack;
+    pg_tip *t = w->tip;
+    for (size_t i = w->nfirst; i < n && k->reading; i++)
+        c[i] = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2 };
+    PG_TRY (pg_keep_fields (k, name, "pieces", "places", n, PG_ROWS (
+        PG_EACH_IN (c, sided, 0, 1, "the sides of a crack"),
+        PG_ITEMS_IN (w->parent, 1, -1, (long) n - 1, "the parent of a crack"),
+        PG_ITEMS_IN (w->path, 1, 0, n - 1, "the path of a crack"), PG_ITEMS (w->owner, 1),
+        PG_ITEMS (w->store, 6), PG_EACH (c, width), PG_EACH (c, normal[0]), PG_EACH (c, normal[1]))));
+    PG_TRY (pg_keep_fields (k, name, "tips", "tip_places", ntip, PG_ROWS (
+        PG_EACH (t, id), PG_EACH_IN (t, segment, 0, (long) n - 1, "the piece of a tip"),
+        PG_EACH_IN (t, end, 0, 1, "the end of a tip"), PG_EACH_IN (t, open, 0, 1, "whether a tip is open"),
+        PG_EACH (t, x[0]), PG_EACH (t, x[1]), PG_EACH (t, offset), PG_EACH (t, grown))));
     if (!k->reading) goto done;
     point_into_store (w);
     PG_TRY (pg_cracks_index (&w->cracks));

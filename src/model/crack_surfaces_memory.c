@@ -7,27 +7,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#define RESIZE(p, n) \
-    do { \
-        void *more_ = pg_resize ((p), (n), sizeof *(p)); \
-        if (!more_) PG_FAIL (PG_E_MEMORY, "no memory for a crack of %zu parts", (size_t) (n)); \
-        (p) = more_; \
-    } while (0)
-
 /* ---- fronts -------------------------------------------------------------------------------------------- */
 /* Makes room for n vertices of a front, and as many more: it seldom moves while it grows one by one. */
 pg_status pg_front_reserve (pg_front *f, size_t n)
 {
     pg_status status = PG_OK;
-    if (n <= f->capacity) return PG_OK;
-    size_t most = 2 * n + 16;
-    RESIZE (f->x, 3 * most);
-    RESIZE (f->normal, 3 * most);
-    RESIZE (f->ahead, 3 * most);
-    RESIZE (f->offset, most);
-    RESIZE (f->grown, most);
-    RESIZE (f->meets, most);
-    f->capacity = most;
+    GROW_ALSO (f->x, 3, f->capacity, n);
+    GROW_ALSO (f->normal, 3, f->capacity, n);
+    GROW_ALSO (f->ahead, 3, f->capacity, n);
+    GROW_ALSO (f->offset, 1, f->capacity, n);
+    GROW_ALSO (f->grown, 1, f->capacity, n);
+    PG_GROW (f->meets, f->capacity, n);
 done:
     return status;
 }
@@ -83,13 +73,10 @@ pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices
 {
     pg_status status = PG_OK;
     PG_GROW (w->vertex, w->vertex_capacity, 3 * vertices);
-    if (cracks <= w->capacity) return PG_OK;
-    size_t most = 2 * cracks + 16;
-    RESIZE (w->cracks.crack, most);
-    RESIZE (w->corner, 3 * most);
-    RESIZE (w->owner, most);
-    RESIZE (w->store, 9 * most);
-    w->capacity = most;
+    GROW_ALSO (w->cracks.crack, 1, w->capacity, cracks);
+    GROW_ALSO (w->corner, 3, w->capacity, cracks);
+    GROW_ALSO (w->store, 9, w->capacity, cracks);
+    PG_GROW (w->owner, w->capacity, cracks);
 done:
     if (w->store) point_into_store (w);
     return status;
@@ -151,145 +138,62 @@ void pg_crack_surfaces_free (pg_crack_surfaces **surfaces)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-typedef struct { pg_crack_surfaces *w; const pg_keeper *k; const char *name; char part[96]; } walk;
-
-static const char *part_of (walk *v, const char *suffix)
-{
-    snprintf (v->part, sizeof v->part, "%s.%s", v->name, suffix);
-    return v->part;
-}
-
-/* Triangles: three corners and an owner each; normals as they are, for slivers have theirs from the front. */
-static void give_triangle (void *context, size_t i, long *count, double *number)
-{
-    const pg_crack_surfaces *w = context;
-    const pg_crack *c = &w->cracks.crack[w->nfirst + i];
-    for (size_t a = 0; a < 3; a++) count[a] = (long) w->corner[3*i + a];
-    memcpy (number, c->normal, 3 * sizeof *number);
-    count[3] = w->owner[i], number[3] = c->width;
-}
-
-static pg_status take_triangle (void *context, size_t i, const long *count, const double *number,
-                                const pg_keeper *k)
+/* The vertices of a front and what they meet, and its rim. */
+static pg_status keep_front (pg_front *f, const char *name, size_t i, size_t nvertex, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    pg_crack_surfaces *w = context;
-    size_t corner[3];
-    (void) i;                                          /* one after the other */
-    for (int a = 0; a < 3; a++) {
-        PG_KEEP_BOUND (k, "the corner of a triangle", count[a], 0, (long) w->nvertex - 1);
-        corner[a] = (size_t) count[a];
-    }
-    surfaces_put_triangle (w, corner, number, number[3], count[3]);
+    char places[40], meets[40], rim[40];
+    snprintf (places, sizeof places, "front.%zu.places", i), snprintf (meets, sizeof meets, "front.%zu.meets", i);
+    snprintf (rim, sizeof rim, "front.%zu.rim", i);
+    PG_TRY (pg_front_reserve (f, f->n));
+    PG_GROW (f->rim, f->rim_capacity, f->nrim);
+    PG_TRY (pg_keep_fields (k, name, meets, places, f->n, PG_ROWS (
+        PG_ITEMS_IN (f->meets, 1, 0, PG_MEETS_CRACK, "what a front meets"), PG_ITEMS (f->x, 3),
+        PG_ITEMS (f->normal, 3), PG_ITEMS (f->ahead, 3), PG_ITEMS (f->offset, 1), PG_ITEMS (f->grown, 1))));
+    PG_TRY (pg_keep_fields (k, name, rim, NULL, f->nrim, PG_ROWS (
+        PG_ITEMS_IN (f->rim, 1, 0, (long) nvertex - 1, "the rim of a front"))));
 done:
     return status;
 }
 
-/* Vertices of fronts: eleven numbers and what they meet. */
-static void give_vertex (void *context, size_t i, long *count, double *number)
-{
-    const pg_front *f = context;
-    memcpy (number, f->x + 3*i, 3 * sizeof *number), memcpy (number + 3, f->normal + 3*i, 3 * sizeof *number);
-    memcpy (number + 6, f->ahead + 3*i, 3 * sizeof *number);
-    number[9] = f->offset[i], number[10] = f->grown[i], count[0] = f->meets[i];
-}
-
-static pg_status take_vertex (void *context, size_t i, const long *count, const double *number,
+static pg_status keep_fronts (pg_crack_surfaces *w, const char *name, size_t n, long most,
                               const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    pg_front *f = context;
-    PG_KEEP_BOUND (k, "what a front meets", count[0], 0, PG_MEETS_CRACK);
-    memcpy (f->x + 3*i, number, 3 * sizeof *number), memcpy (f->normal + 3*i, number + 3, 3 * sizeof *number);
-    memcpy (f->ahead + 3*i, number + 6, 3 * sizeof *number);
-    f->offset[i] = number[9], f->grown[i] = number[10], f->meets[i] = (unsigned char) count[0];
+    pg_front *f = w->front;
+    PG_TRY (pg_keep_fields (k, name, "fronts", NULL, n, PG_ROWS (
+        PG_EACH_IN (f, n, 0, most, "the vertices of a front"),
+        PG_EACH_IN (f, nrim, 0, most, "the length of a rim"), PG_EACH (f, id), PG_EACH (f, of),
+        PG_EACH_IN (f, closed, 0, 1, "whether a front is a loop"),
+        PG_EACH_IN (f, open, 0, 1, "whether a front is open"))));
+    for (size_t i = 0; i < n; i++) PG_TRY (keep_front (&f[i], name, i, w->nvertex, k));
 done:
     return status;
 }
 
-/* The vertices of a front, of which there are n, and its rim. */
-static pg_status keep_front (walk *v, size_t number_of, size_t n, size_t rim)
-{
-    pg_status status = PG_OK;
-    pg_front *f = &v->w->front[number_of];
-    char places[96], meets[96], suffix[40];
-    long *count = NULL;
-    PG_ALLOC (count, rim + 1);
-    PG_TRY (pg_front_reserve (f, n));
-    PG_GROW (f->rim, f->rim_capacity, rim);
-    for (size_t i = 0; !v->k->reading && i < rim; i++) count[i] = (long) f->rim[i];
-    snprintf (places, sizeof places, "%s.front.%zu.places", v->name, number_of);
-    snprintf (meets, sizeof meets, "%s.front.%zu.meets", v->name, number_of);
-    PG_TRY (pg_keep_records (v->k, &(pg_records) { .count_name = meets, .number_name = places, .n = n,
-                                                   .counts = 1, .numbers = 11, .give = give_vertex,
-                                                   .take = take_vertex, .context = f }));
-    snprintf (suffix, sizeof suffix, "front.%zu.rim", number_of);
-    PG_TRY (v->k->counts (v->k->context, part_of (v, suffix), rim, count));
-    for (size_t i = 0; i < rim; i++) {
-        PG_KEEP_BOUND (v->k, "the rim of a front", count[i], 0, (long) v->w->nvertex - 1);
-        f->rim[i] = (size_t) count[i];
-    }
-    f->n = n, f->nrim = rim;
-done:
-    pg_free (count);
-    return status;
-}
-
-/* Five whole numbers of each front first: arrays of that length follow. */
-static pg_status keep_fronts (walk *v, size_t n, long most)
-{
-    pg_status status = PG_OK;
-    enum { EACH = 6 };
-    pg_crack_surfaces *w = v->w;
-    long *count = NULL;
-    PG_ALLOC (count, EACH * n + 1);
-    for (size_t i = 0; !v->k->reading && i < n; i++) {
-        const pg_front *f = &w->front[i];
-        const long whole[EACH] = { (long) f->n, (long) f->nrim, f->id, f->of, f->closed, f->open };
-        memcpy (count + EACH * i, whole, sizeof whole);
-    }
-    PG_TRY (v->k->counts (v->k->context, part_of (v, "fronts"), EACH * n, count));
-    for (size_t i = 0; i < n; i++) {
-        const long *c = count + EACH * i;
-        PG_KEEP_BOUND (v->k, "the vertices of a front", c[0], 0, most);
-        PG_KEEP_BOUND (v->k, "the length of a rim", c[1], 0, most);
-        PG_KEEP_BOUND (v->k, "whether a front is a loop", c[4], 0, 1);
-        PG_KEEP_BOUND (v->k, "whether a front is open", c[5], 0, 1);
-        PG_TRY (keep_front (v, i, (size_t) c[0], (size_t) c[1]));
-        w->front[i].id = c[2], w->front[i].of = c[3];
-        w->front[i].closed = (int) c[4], w->front[i].open = (int) c[5];
-    }
-done:
-    pg_free (count);
-    return status;
-}
-
-/* The counts first. */
+/* The counts first. Of triangles the normals are kept as they are, for slivers have theirs from the front. */
 pg_status surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    walk v = { .w = w, .k = k, .name = name };
-    long count[3] = { (long) (w->cracks.n - w->nfirst), (long) w->nvertex, (long) w->nfront };
-    PG_TRY (k->counts (k->context, part_of (&v, "counts"), 3, count));
-    for (int i = 0; i < 3; i++) PG_KEEP_BOUND (k, "the size of the cracks", count[i], 0, most);
-    PG_TRY (k->numbers (k->context, part_of (&v, "area"), 1, &w->area));
+    size_t n = w->cracks.n - w->nfirst, nvertex = w->nvertex, nfront = w->nfront;
+    PG_TRY (pg_keep_fields (k, name, "counts", "area", 1, PG_ROWS (
+        PG_KEPT_IN (n, 0, most, "the size of the cracks"), PG_KEPT_IN (nvertex, 0, most, "the size of the cracks"),
+        PG_KEPT_IN (nfront, 0, most, "the size of the cracks"), PG_KEPT (w->area))));
     if (k->reading) {
         w->cracks.n = w->nfirst, w->nvertex = w->nfront = 0;
-        PG_TRY (surfaces_reserve (w, w->nfirst + (size_t) count[0], (size_t) count[1]));
-        PG_TRY (surfaces_reserve_fronts (w, (size_t) count[2]));
+        PG_TRY (surfaces_reserve (w, w->nfirst + n, nvertex));
+        PG_TRY (surfaces_reserve_fronts (w, nfront));
     }
-    if (count[1])
-        PG_TRY (k->numbers (k->context, part_of (&v, "vertices"), 3 * (size_t) count[1], w->vertex));
-    w->nvertex = (size_t) count[1];
-    char corners[96], normals[96];
-    snprintf (corners, sizeof corners, "%s.triangles", name);
-    snprintf (normals, sizeof normals, "%s.normals", name);
-    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = corners, .number_name = normals,
-                                                .n = (size_t) count[0], .counts = 4, .numbers = 4,
-                                                .give = give_triangle, .take = take_triangle,
-                                                .context = w }));
-    PG_TRY (keep_fronts (&v, (size_t) count[2], most));
-    w->nfront = (size_t) count[2];
+    if (nvertex) PG_TRY (pg_keep_numbers (k, name, "vertices", 3 * nvertex, w->vertex));
+    w->nvertex = nvertex;
+    pg_crack *c = w->cracks.crack ? w->cracks.crack + w->nfirst : NULL;
+    PG_TRY (pg_keep_fields (k, name, "triangles", "normals", n, PG_ROWS (
+        PG_ITEMS_IN (w->corner, 3, 0, (long) nvertex - 1, "the corner of a triangle"), PG_ITEMS (w->owner, 1),
+        PG_EACH (c, normal), PG_EACH (c, width))));
+    for (size_t i = 0; i < n && k->reading; i++)
+        surfaces_put_triangle (w, w->corner + 3*i, c[i].normal, c[i].width, w->owner[i]);
+    PG_TRY (keep_fronts (w, name, nfront, most, k));
+    w->nfront = nfront;
     if (k->reading) PG_TRY (pg_cracks_index (&w->cracks));
 done:
     if (status != PG_OK && k->reading) w->cracks.n = w->nfirst, w->nvertex = w->nfront = 0;

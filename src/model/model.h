@@ -48,6 +48,12 @@ pg_status pg_fronts_find (const pg_ground *ground, const pg_cracks *cracks, doub
 /* Where the body is (body_search.c): for a body in the plane, or one with cracks. */
 pg_status pg_body_search_create (pg_problem *problem);
 void      pg_body_search_free   (pg_problem *problem);
+/* Arrays that share a capacity: PG_GROW of one with `each` values for an element, which leaves the capacity
+ * to the PG_GROW of the last. */
+#define GROW_ALSO(p, each, cap, need) do { if ((size_t) (need) > (cap)) { \
+    void *q_ = pg_resize ((p), (each) * (2 * (size_t) (need) + 16), sizeof *(p)); \
+    if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", (size_t) (need), (each) * sizeof *(p)); \
+    (p) = q_; } } while (0)
 /* crack_paths_memory.c: do two places lie at one? Room for n pieces of cracks in all. */
 int       pg_crack_paths_same (const pg_crack_paths *paths, const double *a, const double *b);
 pg_status pg_crack_paths_reserve (pg_crack_paths *paths, size_t n);

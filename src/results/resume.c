@@ -15,8 +15,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Bytes of a hash and of the version; whole numbers of a set of marks. */
-enum { WORD = 64, MARKS = 11 };
+enum { WORD = 64 };                                    /* bytes of a hash and of the version */
+static const long largest = 1L << 50;                  /* of any count */
+
 /* A hash of places, volumes and blocks: it also notices changes in files that the scene names
  * only indirectly. */
 static long fingerprint (const pg_cloud *cloud)
@@ -113,22 +114,19 @@ done:
 
 /* Marks that are read must be possible: no more rows than history.csv has bytes, no more
  * points of the curve than rows. */
-static pg_status check_marks (const resumed *m, const char *name, const long *count)
+static pg_status check_marks (const resumed *m, const result_marks *at)
 {
     pg_status status = PG_OK;
     struct stat s;
     char path[4096];
     snprintf (path, sizeof path, "%s/history.csv", m->r->folder);
     if (stat (path, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    for (int i = 0; i < MARKS; i++)
-        if (count[i] < 0 || count[i] > 1L << 50)
-            PG_FAIL (PG_E_FILE, "%s is not of this run: mark %d of %s is %ld", m->path, i, name, count[i]);
-    if (count[0] > s.st_size)
+    if (at->history > s.st_size)
         PG_FAIL (PG_E_FILE, "%s has %ld bytes, not %ld rows: it was changed since", path, (long) s.st_size,
-                 count[0]);
-    if (count[5] > count[0])
-        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld points of the curve of %ld rows", m->path, count[5],
-                 count[0]);
+                 at->history);
+    if (at->points > at->history)
+        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld points of the curve of %ld rows", m->path, at->points,
+                 at->history);
 done:
     return status;
 }
@@ -137,17 +135,13 @@ done:
 static pg_status keep_marks (const resumed *of, result_marks *m, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    char part[WORD];
-    long count[MARKS] = { m->history, m->events,       m->moments, m->keep, m->next_broken,
-                          m->points,  m->last_written, m->pieces, m->tips,  m->npiece, m->contact };
-    double number[2] = { m->stamp, m->time };
-    snprintf (part, sizeof part, "%s.counts", name);
-    PG_TRY (k->counts (k->context, part, MARKS, count));
-    snprintf (part, sizeof part, "%s.numbers", name);
-    PG_TRY (k->numbers (k->context, part, 2, number));
-    if (k->reading) PG_TRY (check_marks (of, name, count));
-    *m = (result_marks){ count[0], count[1], count[2], count[3], count[4],  count[5],
-                         count[6], count[7], count[8], count[9], count[10], number[0], number[1] };
+#define MARK(field) PG_KEPT_IN (m->field, 0, largest, name)
+    PG_TRY (pg_keep_fields (k, name, "counts", "numbers", 1, PG_ROWS (
+        MARK (history), MARK (events), MARK (moments), MARK (keep), MARK (next_broken), MARK (points),
+        MARK (last_written), MARK (pieces), MARK (tips), MARK (npiece), MARK (contact), PG_KEPT (m->stamp),
+        PG_KEPT (m->time))));
+#undef MARK
+    if (k->reading) PG_TRY (check_marks (of, m));
 done:
     return status;
 }
@@ -159,36 +153,17 @@ static pg_status keep_pending (resumed *m, const pg_keeper *k)
     pg_status status = PG_OK;
     pg_step *s = &m->pending;
     size_t nreaction = s->reaction || k->reading ? PG_REACTIONS * m->r->problem->nload : 0;
-    long count[8] = { s->number, s->iterations, s->level, s->event, (long) s->nbroken,
-                      s->instability, s->stage, s->unjudged };
-    double number[7] = { s->stamp, s->time, s->factor, s->residual, s->utilisation, s->dissipated,
-                         s->motion };
     if (!m->is_pending) goto done;
-    PG_TRY (k->counts (k->context, "pending.counts", 8, count));
-    PG_TRY (k->numbers (k->context, "pending.numbers", 7, number));
-    if (k->reading && (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS]))
-        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
+    PG_TRY (pg_keep_fields (k, "pending", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT (s->number), PG_KEPT (s->iterations), PG_KEPT (s->level), PG_KEPT (s->event),
+        PG_KEPT_IN (s->nbroken, 0, m->r->problem->first_bond[PG_BOND_SETS], "the bonds broken in a step"),
+        PG_KEPT (s->instability), PG_KEPT (s->stage), PG_KEPT (s->unjudged), PG_KEPT (s->stamp),
+        PG_KEPT (s->time), PG_KEPT (s->factor), PG_KEPT (s->residual), PG_KEPT (s->utilisation),
+        PG_KEPT (s->dissipated), PG_KEPT (s->motion))));
     /* A checkpoint is walked through twice when it is written. */
-    if (!m->broken) PG_ALLOC (m->broken, (size_t) count[4]);
+    if (!m->broken) PG_ALLOC (m->broken, s->nbroken);
     if (!m->reaction) PG_ALLOC (m->reaction, nreaction);
-    if (k->reading)
-        *s = (pg_step){ .number = count[0],
-                        .iterations = count[1],
-                        .level = (int) count[2],
-                        .event = (int) count[3],
-                        .nbroken = (size_t) count[4],
-                        .broken = m->broken,
-                        .reaction = m->reaction,
-                        .stamp = number[0],
-                        .time = number[1],
-                        .factor = number[2],
-                        .residual = number[3],
-                        .utilisation = number[4],
-                        .dissipated = number[5],
-                        .instability = count[5],
-                        .stage = count[6],
-                        .unjudged = count[7],
-                        .motion = number[6] };
+    if (k->reading) s->broken = m->broken, s->reaction = m->reaction;
     else {
         if (s->nbroken) memcpy (m->broken, s->broken, s->nbroken * sizeof *s->broken);
         if (nreaction) memcpy (m->reaction, s->reaction, nreaction * sizeof *s->reaction);
@@ -203,14 +178,12 @@ pg_status resumed_files (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_result *r = m->r;
-    long flag[3] = { m->rounds, m->is_pending, r->progress.generation };
-    double seconds[2] = { m->seconds, r->progress.seconds };
-    PG_TRY (k->counts (k->context, "result.counts", 3, flag));
-    PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
-    if (flag[0] < 0 || flag[0] > 1L << 50)
-        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
-    m->rounds = flag[0], m->is_pending = flag[1], m->seconds = seconds[0];
-    if (k->reading) r->progress.seconds = seconds[1], r->progress.generation = flag[2];
+    double seconds = r->progress.seconds;
+    long generation = r->progress.generation;
+    PG_TRY (pg_keep_fields (k, "result", "counts", "seconds", 1, PG_ROWS (
+        PG_KEPT_IN (m->rounds, 0, largest, "rounds of a step"), PG_KEPT (m->is_pending), PG_KEPT (generation),
+        PG_KEPT (m->seconds), PG_KEPT (seconds))));
+    if (k->reading) r->progress.seconds = seconds, r->progress.generation = generation;
     PG_TRY (keep_marks (m, &m->now, "now", k));
     PG_TRY (keep_marks (m, &r->progress.done, "done", k));
     PG_TRY (pg_result_curve_keep (r, (size_t) m->now.points, k));
@@ -423,9 +396,9 @@ static pg_status one_moment (const resumed *m)
 {
     pg_status status = PG_OK;
     double step = (double) m->state->step, rounds = (double) m->rounds, time = m->state->time,
-           most[6] = { step, -step, rounds, -rounds, time, -time };
-    PG_TRY (pg_ranks_ask (6, most));                   /* the largest of all ranks, and minus the least */
-    if (most[0] != -most[1] || most[2] != -most[3] || most[4] != -most[5])
+           all[6] = { step, -step, rounds, -rounds, time, -time };
+    PG_TRY (pg_ranks_ask (6, all));                    /* the largest of all ranks, and minus the least */
+    if (all[0] != -all[1] || all[2] != -all[3] || all[4] != -all[5])
         status = of_other_moments (m->path);
 done:
     return status;

@@ -56,14 +56,9 @@ pg_status system_keep_residual (pg_system *s, const pg_keeper *k)
 {
     system_balance *b = &s->balance;
     pg_status status = PG_OK;
-    long at_hand = b->at_hand;
-    double number[2] = { b->reference, b->scale };
-    PG_TRY (k->counts (k->context, "system.at_hand", 1, &at_hand));
-    PG_KEEP_BOUND (k, "a residual at hand", at_hand, 0, 1);
-    b->at_hand = at_hand != 0;
-    PG_TRY (k->numbers (k->context, "system.references", 2, number));
-    b->reference = number[0], b->scale = number[1];
-    if (at_hand) PG_TRY (k->numbers (k->context, "system.residual", s->ndof, b->residual));
+    PG_TRY (pg_keep_fields (k, "system", "at_hand", "references", 1, PG_ROWS (
+        PG_KEPT_IN (b->at_hand, 0, 1, "a residual at hand"), PG_KEPT (b->reference), PG_KEPT (b->scale))));
+    if (b->at_hand) PG_TRY (k->numbers (k->context, "system.residual", s->ndof, b->residual));
 done:
     return status;
 }

@@ -12,19 +12,16 @@ static const long most = 1L << 50;                     /* of any count */
 /* Bytes that are 0 or 1: anything else in a file is a fault, as they are used in arithmetic. */
 static pg_status keep_flags (const char *name, size_t n, unsigned char *flag, const pg_keeper *k)
 {
-    pg_status status = PG_OK;
-    PG_TRY (k->bytes (k->context, name, n, flag));
-    for (size_t i = 0; k->reading && i < n; i++) PG_KEEP_BOUND (k, name, flag[i], 0, 1);
-done:
-    return status;
+    return pg_keep_bytes (k, name, n, flag, 1, name);
 }
 
-/* A text of fixed size, ended whatever was read. */
-pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
+pg_status keep_state_numbers (pg_state *s, const char *name, const pg_keeper *k)
 {
-    pg_status status = k->bytes (k->context, name, size, text);
-    if (k->reading) text[size - 1] = 0;
-    return status;
+    return pg_keep_fields (k, name, "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (s->step, 0, most, name), PG_KEPT_IN (s->events, 0, most, name),
+        PG_KEPT_IN (s->iterations, 0, most, name), PG_KEPT_IN (s->broken, 0, most, name),
+        PG_KEPT_IN (s->history_rows, 0, most, name), PG_KEPT (s->time), PG_KEPT (s->factor),
+        PG_KEPT (s->work)));
 }
 
 /* All of a state: counts, times, displacement, velocity, acceleration, the alive bit of every bond, cracks.
@@ -33,55 +30,14 @@ static pg_status keep_state (pg_state *s, const pg_problem *p, const char *name,
 {
     pg_status status = PG_OK;
     char part[64];
-    /* Numbers of one kind go in one array, so that the file has few variables. Every name in the file is
-     * that of the state and a suffix. */
-    long count[5] = { s->step, s->events, s->iterations, s->broken, s->history_rows };
-    double number[3] = { s->time, s->factor, s->work };
-    double *vector[3] = { s->d, s->v, s->a };
-    static const char *const vectors[3] = { "d", "v", "a" };
-#define PART(suffix) (strcpy (part, name), strcat (part, suffix))
-    PG_TRY (k->counts (k->context, PART (".counts"), 5, count));
-    PG_TRY (k->numbers (k->context, PART (".numbers"), 3, number));
-    for (int i = 0; i < 5; i++) PG_KEEP_BOUND (k, name, count[i], 0, most);
-    s->step = count[0], s->events = count[1], s->iterations = count[2], s->broken = count[3],
-    s->history_rows = count[4];
-    s->time = number[0], s->factor = number[1], s->work = number[2];
-    for (int v = 0; v < 3; v++) {
-        PART (".");
-        PG_TRY (k->numbers (k->context, strcat (part, vectors[v]), s->ndof, vector[v]));
-    }
-    PG_TRY (keep_flags (PART (".alive"), s->nbond, s->alive, k));
-    if (s->paths) PG_TRY (pg_crack_paths_keep (s->paths, p, PART (".paths"), k));
-    if (s->surfaces) PG_TRY (pg_crack_surfaces_keep (s->surfaces, p, PART (".surfaces"), k));
-#undef PART
-done:
-    return status;
-}
-
-/* A list of broken bonds, and the problem that they belong to. */
-typedef struct { const pg_problem *p; pg_broken *broken; } broken_list;
-
-static void give_bond (void *context, size_t i, long *count, double *number)
-{
-    const pg_broken *b = &((broken_list *) context)->broken[i];
-    count[0] = (long) b->bond, count[1] = b->set, count[2] = b->kind, count[3] = b->round;
-    number[0] = b->utilisation, number[1] = b->time;
-    memcpy (number + 2, b->place, 3 * sizeof *number);
-}
-
-static pg_status take_bond (void *context, size_t i, const long *count, const double *number,
-                            const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    const broken_list *list = context;
-    PG_KEEP_BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
-    PG_KEEP_BOUND (k, "a broken bond", count[0], 0, (long) list->p->first_bond[PG_BOND_SETS] - 1);
-    PG_KEEP_BOUND (k, "the kind of a broken bond", count[2], 0, 127);
-    PG_KEEP_BOUND (k, "the round of a broken bond", count[3], 0, most);
-    list->broken[i] = (pg_broken){
-        (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] },
-        number[1], count[3]
-    };
+    PG_TRY (keep_state_numbers (s, name, k));
+    PG_TRY (pg_keep_numbers (k, name, "d", s->ndof, s->d));
+    PG_TRY (pg_keep_numbers (k, name, "v", s->ndof, s->v));
+    PG_TRY (pg_keep_numbers (k, name, "a", s->ndof, s->a));
+    PG_TRY (keep_flags (strcat (strcpy (part, name), ".alive"), s->nbond, s->alive, k));
+    strcat (strcpy (part, name), s->paths ? ".paths" : ".surfaces");
+    if (s->paths) PG_TRY (pg_crack_paths_keep (s->paths, p, part, k));
+    if (s->surfaces) PG_TRY (pg_crack_surfaces_keep (s->surfaces, p, part, k));
 done:
     return status;
 }
@@ -89,12 +45,20 @@ done:
 pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken,
                           const pg_keeper *k)
 {
-    broken_list list = { p, broken };
-    char bonds[64], values[64];
-    snprintf (bonds, sizeof bonds, "%s.bonds", name), snprintf (values, sizeof values, "%s.values", name);
-    const pg_records records = { .count_name = bonds, .number_name = values, .n = n, .counts = 4,
-                                 .numbers = 5, .give = give_bond, .take = take_bond, .context = &list };
-    return pg_keep_records (k, &records);
+    return pg_keep_fields (k, name, "bonds", "values", n, PG_ROWS (
+        PG_EACH_IN (broken, bond, 0, p->first_bond[PG_BOND_SETS] - 1, "a broken bond"),
+        PG_EACH_IN (broken, set, 0, PG_BOND_SETS - 1, "the set of a broken bond"),
+        PG_EACH_IN (broken, kind, 0, 127, "the kind of a broken bond"),
+        PG_EACH_IN (broken, round, 0, most, "the round of a broken bond"),
+        PG_EACH (broken, utilisation), PG_EACH (broken, time), PG_EACH (broken, place)));
+}
+
+/* A text of an entry of the report. */
+static pg_status keep_entry (const char *name, size_t i, size_t size, char *text, const pg_keeper *k)
+{
+    char part[64];
+    snprintf (part, sizeof part, "report.%s.%zu", name, i);
+    return pg_keep_text (k, part, size, text);
 }
 
 /* Counts, numbers and texts of the report, seconds too: those of the run so far, so that a resumed run
@@ -102,60 +66,34 @@ pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_br
 pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long *const word[] = { &r->steps,           &r->events,           &r->iterations,
-                           &r->broken,          &r->bonds_over_limit, &r->factorizations,
-                           &r->updates,         &r->solves,           &r->preconditioners,
-                           &r->contact_columns, &r->contact_solves,   &r->contact_changes,
-                           &r->balances };
-    size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes,
-                              &r->fragments,     &r->nskipped,          &r->nwarning };
-    double *const value[] = { &r->utilisation_max, &r->residual_max,    &r->overlap_max,
-                              &r->energy_strain,   &r->energy_kinetic,  &r->energy_external,
-                              &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
-                              &r->factor_flops,    &r->energy_fracture, &r->energy_friction,
-                              &r->contact_overlap, &r->energy_contact,  &r->contact_seconds,
-                              &r->balance_force,   &r->balance_moment };
-    enum {
-        VALUES = sizeof value / sizeof *value,
-        WORDS = sizeof word / sizeof *word,
-        SKIPS = sizeof r->skipped / sizeof *r->skipped,
-        WARNINGS = sizeof r->warning / sizeof *r->warning
-    };
-    long count[WORDS + 6];
-    double number[VALUES + PG_SECONDS_COUNT], saved[SKIPS];
-    /* Gathered, given to the keeper, and spread again: when writing the keeper leaves them as they are,
-     * so that spreading changes nothing. */
-    for (int i = 0; i < WORDS; i++) count[i] = *word[i];
-    for (int i = 0; i < 6; i++) count[WORDS + i] = (long) *size[i];
-    for (int i = 0; i < VALUES; i++) number[i] = *value[i];
-    memcpy (number + VALUES, r->seconds, sizeof r->seconds);
-    PG_TRY (k->counts (k->context, "report.counts", WORDS + 6, count));
-    PG_TRY (k->numbers (k->context, "report.numbers", VALUES + PG_SECONDS_COUNT, number));
-    for (int i = 0; i < WORDS + 4; i++) PG_KEEP_BOUND (k, "a count of the report", count[i], 0, most);
-    PG_KEEP_BOUND (k, "the number of skipped things", count[WORDS + 4], 0, SKIPS);
-    PG_KEEP_BOUND (k, "the number of warnings", count[WORDS + 5], 0, WARNINGS);
-    for (int i = 0; i < WORDS; i++) *word[i] = count[i];
-    for (int i = 0; i < 6; i++) *size[i] = (size_t) count[WORDS + i];
-    for (int i = 0; i < VALUES; i++) *value[i] = number[i];
-    memcpy (r->seconds, number + VALUES, sizeof r->seconds);
-    PG_TRY (keep_text ("report.ordering", sizeof r->ordering, r->ordering, k));
-    PG_TRY (keep_text ("report.solver", sizeof r->solver, r->solver, k));
-    PG_TRY (keep_text ("report.preconditioner", sizeof r->preconditioner, r->preconditioner, k));
-    for (size_t i = 0; i < SKIPS; i++) saved[i] = r->skipped[i].seconds_saved;
-    PG_TRY (k->numbers (k->context, "report.saved", SKIPS, saved));
+    enum { SKIPS = sizeof r->skipped / sizeof *r->skipped, WARNINGS = sizeof r->warning / sizeof *r->warning };
+    pg_skip *skip = r->skipped;
+#define COUNT(field) PG_KEPT_IN (r->field, 0, most, "a count of the report")
+#define NUMBER(field) PG_KEPT (r->field)
+    PG_TRY (pg_keep_fields (k, "report", "counts", "numbers", 1, PG_ROWS (
+        COUNT (steps), COUNT (events), COUNT (iterations), COUNT (broken), COUNT (bonds_over_limit),
+        COUNT (factorizations), COUNT (updates), COUNT (solves), COUNT (preconditioners),
+        COUNT (contact_columns), COUNT (contact_solves), COUNT (contact_changes), COUNT (balances),
+        COUNT (cg_iterations), COUNT (degenerate_points), COUNT (isolated_nodes), COUNT (fragments),
+        PG_KEPT_IN (r->nskipped, 0, SKIPS, "the number of skipped things"),
+        PG_KEPT_IN (r->nwarning, 0, WARNINGS, "the number of warnings"),
+        NUMBER (utilisation_max), NUMBER (residual_max), NUMBER (overlap_max), NUMBER (energy_strain),
+        NUMBER (energy_kinetic), NUMBER (energy_external), NUMBER (energy_damping),
+        NUMBER (energy_dissipated), NUMBER (factor_entries), NUMBER (factor_flops), NUMBER (energy_fracture),
+        NUMBER (energy_friction), NUMBER (contact_overlap), NUMBER (energy_contact),
+        NUMBER (contact_seconds), NUMBER (balance_force), NUMBER (balance_moment), NUMBER (seconds))));
+#undef COUNT
+#undef NUMBER
+    PG_TRY (pg_keep_text (k, "report.ordering", sizeof r->ordering, r->ordering));
+    PG_TRY (pg_keep_text (k, "report.solver", sizeof r->solver, r->solver));
+    PG_TRY (pg_keep_text (k, "report.preconditioner", sizeof r->preconditioner, r->preconditioner));
+    PG_TRY (pg_keep_fields (k, "report", NULL, "saved", SKIPS, PG_ROWS (PG_EACH (skip, seconds_saved))));
     for (size_t i = 0; i < SKIPS; i++) {
-        char part[64];
-        r->skipped[i].seconds_saved = saved[i];
-        snprintf (part, sizeof part, "report.skipped.%zu", i);
-        PG_TRY (keep_text (part, sizeof r->skipped[i].what, r->skipped[i].what, k));
-        snprintf (part, sizeof part, "report.why.%zu", i);
-        PG_TRY (keep_text (part, sizeof r->skipped[i].why, r->skipped[i].why, k));
+        PG_TRY (keep_entry ("skipped", i, sizeof skip[i].what, skip[i].what, k));
+        PG_TRY (keep_entry ("why", i, sizeof skip[i].why, skip[i].why, k));
     }
-    for (size_t i = 0; i < WARNINGS; i++) {
-        char part[64];
-        snprintf (part, sizeof part, "report.warning.%zu", i);
-        PG_TRY (keep_text (part, sizeof r->warning[i], r->warning[i], k));
-    }
+    for (size_t i = 0; i < WARNINGS; i++)
+        PG_TRY (keep_entry ("warning", i, sizeof r->warning[i], r->warning[i], k));
 done:
     return status;
 }
@@ -164,14 +102,9 @@ done:
 static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long n = (long) b->nbroken;
-    PG_TRY (k->counts (k->context, "solver.broken_count", 1, &n));
-    PG_KEEP_BOUND (k, "the number of broken bonds", n, 0, (long) p->first_bond[PG_BOND_SETS]);
-    if (k->reading) {
-        PG_GROW (b->broken, b->cap_broken, (size_t) n);
-        b->nbroken = (size_t) n;
-    }
-    if (n > 0) PG_TRY (pg_broken_keep (p, "solver.broken", (size_t) n, b->broken, k));
+    PG_KEEP_LENGTH (k, "solver", "broken_count", b->broken, b->nbroken, b->cap_broken,
+                    p->first_bond[PG_BOND_SETS], "the number of broken bonds");
+    if (b->nbroken) PG_TRY (pg_broken_keep (p, "solver.broken", b->nbroken, b->broken, k));
 done:
     return status;
 }
@@ -181,23 +114,16 @@ done:
 static pg_status keep_near (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long n = b->round > 0 ? (long) b->over.n : 0, *bond = NULL,
-         nbond = (long) b->system.problem->first_bond[PG_BOND_SETS];
-    PG_TRY (k->counts (k->context, "solver.near_count", 1, &n));
-    PG_KEEP_BOUND (k, "the number of bonds near their limit", n, 0, b->round > 0 ? nbond : 0);
+    size_t nbond = b->system.problem->first_bond[PG_BOND_SETS], n = b->round > 0 ? b->over.n : 0;
+    PG_KEEP_LENGTH (k, "solver", "near_count", b->over.bond, n, b->over.cap, b->round > 0 ? nbond : 0,
+                    "the number of bonds near their limit");
     if (n == 0) goto done;
-    PG_ALLOC (bond, (size_t) n);
-    for (long i = 0; i < n && !k->reading; i++) bond[i] = (long) b->over.bond[i];
-    PG_TRY (k->counts (k->context, "solver.near", (size_t) n, bond));
-    if (!k->reading) goto done;
-    PG_GROW (b->over.bond, b->over.cap, (size_t) n);
-    for (long i = 0; i < n; i++) {
-        PG_KEEP_BOUND (k, "a bond near its limit", bond[i], i ? bond[i - 1] + 1 : 0, nbond - 1);
-        b->over.bond[i] = (size_t) bond[i];
-    }
-    b->over.n = (size_t) n;
+    PG_TRY (pg_keep_fields (k, "solver", "near", NULL, 1, PG_ROWS (
+        PG_ITEMS_IN (b->over.bond, n, 0, nbond - 1, "a bond near its limit"))));
+    for (size_t i = 1; i < n; i++)
+        PG_KEEP_BOUND (k, "a bond near its limit", b->over.bond[i], b->over.bond[i - 1] + 1, nbond - 1);
+    b->over.n = n;
 done:
-    pg_free (bond);
     return status;
 }
 
@@ -207,28 +133,22 @@ static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t
                                     int reactions, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    char part[64];
-    long count[2] = { l->force != NULL ? (long) l->npair : -1, l->reaction != NULL };
-    strcat (strcpy (part, name), ".counts");
-    PG_TRY (k->counts (k->context, part, 2, count));
-    PG_KEEP_BOUND (k, part, count[0], count[0] < 0 ? -1 : pairs, count[0] < 0 ? -1 : pairs);
-    if (count[0] < 0) goto done;
-    PG_KEEP_BOUND (k, part, count[1], reactions, 1);
+    long npair = l->force != NULL ? (long) l->npair : -1, reacts = l->reaction != NULL;
+    PG_TRY (pg_keep_fields (k, name, "counts", NULL, 1, PG_ROWS (PG_KEPT (npair), PG_KEPT (reacts))));
+    PG_KEEP_BOUND (k, name, npair, npair < 0 ? -1 : pairs, npair < 0 ? -1 : pairs);
+    if (npair < 0) goto done;
+    PG_KEEP_BOUND (k, name, reacts, reactions, 1);
     if (k->reading) {
         pg_work_balance_clear (l);
-        l->npair = (size_t) count[0];
+        l->npair = (size_t) npair;
         PG_ALLOC (l->force, l->npair);
         PG_ALLOC (l->displacement, l->npair);
-        if (count[1]) PG_ALLOC (l->reaction, PG_REACTIONS * nload);
+        if (reacts) PG_ALLOC (l->reaction, PG_REACTIONS * nload);
     }
-    strcat (strcpy (part, name), ".force");
-    if (count[0] > 0) PG_TRY (k->numbers (k->context, part, (size_t) count[0], l->force));
-    strcat (strcpy (part, name), ".displacement");
-    if (count[0] > 0) PG_TRY (k->numbers (k->context, part, (size_t) count[0], l->displacement));
-    strcat (strcpy (part, name), ".reaction");
-    if (count[1] && nload) PG_TRY (k->numbers (k->context, part, PG_REACTIONS * nload, l->reaction));
-    strcat (strcpy (part, name), ".strain");
-    PG_TRY (k->numbers (k->context, part, 1, &l->strain));
+    if (npair > 0) PG_TRY (pg_keep_numbers (k, name, "force", l->npair, l->force));
+    if (npair > 0) PG_TRY (pg_keep_numbers (k, name, "displacement", l->npair, l->displacement));
+    if (reacts && nload) PG_TRY (pg_keep_numbers (k, name, "reaction", PG_REACTIONS * nload, l->reaction));
+    PG_TRY (pg_keep_numbers (k, name, "strain", 1, &l->strain));
 done:
     return status;
 }
@@ -291,18 +211,11 @@ done:
 /* What a factor and finite elements have cost in this motion, and how well rough solutions did. */
 static pg_status keep_ways (pg_ways *w, pg_rough *rough, const pg_keeper *k)
 {
-    pg_status status = PG_OK;
-    long count[4] = { w->meanwhile, w->solves, rough->rounds, rough->again };
-    double number[7] = { w->regret, w->iterations, w->breaking, w->bonds, w->fresh, w->spent, rough->share };
-    PG_TRY (k->counts (k->context, "system.ways", 4, count));
-    PG_TRY (k->numbers (k->context, "system.ways.seconds", 7, number));
-    PG_KEEP_BOUND (k, "whether elements stand in for a factor", count[0], 0, 1);
-    PG_KEEP_BOUND (k, "solves in place of a factor", count[1], 0, most);
-    *w = (pg_ways){ (int) count[0], number[0], number[1], number[2], number[3], number[4], number[5],
-                    count[1] };
-    rough->rounds = count[2], rough->again = count[3], rough->share = number[6];
-done:
-    return status;
+    return pg_keep_fields (k, "system", "ways", "ways.seconds", 1, PG_ROWS (
+        PG_KEPT_IN (w->meanwhile, 0, 1, "whether elements stand in for a factor"),
+        PG_KEPT_IN (w->solves, 0, most, "solves in place of a factor"), PG_KEPT (rough->rounds),
+        PG_KEPT (rough->again), PG_KEPT (w->regret), PG_KEPT (w->iterations), PG_KEPT (w->breaking),
+        PG_KEPT (w->bonds), PG_KEPT (w->fresh), PG_KEPT (w->spent), PG_KEPT (rough->share)));
 }
 
 /* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. A
@@ -315,36 +228,33 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     pg_status status = PG_OK;
     /* without a factor, and after its preconditioner was dropped, no use is made of `factored` any more */
     int made_of = f->factored
-                  && (system_has_matrix (s) || system_has_preconditioner (s) || s->iterative.remake);
-    long count[11] = { c->mode,  f->indefinite, c->kept,   f->marked, made_of,
-                      f->stale, f->unshifted,  c->spared, u->base,   f->loose,
-                       u->by_columns };
-    double number[3] = { f->mean_diagonal, f->shift, c->extra_cost };
-    PG_TRY (k->counts (k->context, "system.counts", 11, count));
-    PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
+                  && (system_has_matrix (s) || system_has_preconditioner (s) || s->iterative.remake),
+        indefinite = f->indefinite, stale = f->stale;
+    PG_TRY (pg_keep_fields (k, "system", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (c->mode, SYSTEM_UNDECIDED, SYSTEM_DIAGONAL, "the way to solve"), PG_KEPT (indefinite),
+        PG_KEPT (c->kept), PG_KEPT (f->marked), PG_KEPT_IN (made_of, 0, solves ? 1 : 0, "a kept factor"),
+        PG_KEPT (stale), PG_KEPT (f->unshifted), PG_KEPT (c->spared),
+        PG_KEPT_IN (u->base, 0, 1, "the base of events"),
+        PG_KEPT_IN (f->loose, 0, 1, "whether parts are loose"), PG_KEPT (u->by_columns),
+        PG_KEPT (f->mean_diagonal), PG_KEPT (f->shift), PG_KEPT (c->extra_cost))));
+    if (c->mode < SYSTEM_NO_FACTOR && !system_has_matrix (s))
+        PG_KEEP_BOUND (k, "the way to solve", c->mode, SYSTEM_UNDECIDED, SYSTEM_UNDECIDED);
+    PG_KEEP_BOUND (k, "a kept factor", made_of, c->mode == SYSTEM_KEPT_FACTOR, 1);
+    PG_KEEP_BOUND (k, "the base of events", u->base, 0, made_of);
     if (f->diagonal0) PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, f->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, f->touched, k));
-    PG_KEEP_BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
-           !system_has_matrix (s) && count[0] < SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_DIAGONAL);
-    PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
-    PG_KEEP_BOUND (k, "the base of events", count[8], 0, count[4]);
-    PG_KEEP_BOUND (k, "whether parts are loose", count[9], 0, 1);
-    c->mode = (int) count[0], c->kept = count[2], f->marked = (int) count[3], f->unshifted = (int) count[6],
-        c->spared = count[7], u->base = (int) count[8], f->loose = (int) count[9];
-    u->by_columns = count[10];
-    f->mean_diagonal = number[0], f->shift = number[1], c->extra_cost = number[2];
     /* K had become indefinite: the method of factoring is changed as it was in the first run. */
-    if (k->reading && count[1] && !f->indefinite) {
+    if (k->reading && indefinite && !f->indefinite) {
         if (f->factor) f->linear->free (&f->factor);
         f->linear = pg_linear_first (0, 1);
         f->indefinite = 1;
     }
-    PG_TRY (keep_preconditioner (s, solves, count[4], k));
+    PG_TRY (keep_preconditioner (s, solves, made_of, k));
     PG_TRY (system_guess_keep (s, k));
     PG_TRY (system_keep_residual (s, k));
     PG_TRY (keep_following (s, k));
     PG_TRY (keep_ways (&c->ways, &s->iterative.rough, k));
-    f->stale = (int) count[5];
+    f->stale = stale;
 done:
     return status;
 }
@@ -364,6 +274,14 @@ done:
     return status;
 }
 
+pg_status keep_solver_counts (pg_solver *s, const pg_keeper *k)
+{
+    return pg_keep_fields (k, "solver", "counts", NULL, 1, PG_ROWS (
+        PG_KEPT (s->finished), PG_KEPT (s->warned_overlap), PG_KEPT (s->warned_energy),
+        PG_KEPT_IN (s->next_level, 0, s->options.levels + 1, "the next level"),
+        PG_KEPT_IN (s->break_loop.round, 0, most, "the round"), PG_KEPT (s->spared), PG_KEPT (s->evaluations)));
+}
+
 /* What the solver object itself carries: where it is among levels and rounds, energies, what it has warned
  * of, statistics, work balances. */
 static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
@@ -372,17 +290,11 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     break_loop *b = &s->break_loop;
     size_t nload = s->problem->nload;
     long pairs = -1;
-    long count[7] = { s->finished, s->warned_overlap, s->warned_energy, s->next_level,
-                      b->round,    s->spared,         s->evaluations };
-    double number[5] = { b->work, b->work0, b->stored0, b->strain0, b->kinetic0 };
-    PG_TRY (k->counts (k->context, "solver.counts", 7, count));
-    PG_TRY (k->numbers (k->context, "solver.numbers", 5, number));
-    PG_KEEP_BOUND (k, "the next level", count[3], 0, s->options.levels + 1);
-    PG_KEEP_BOUND (k, "the round", count[4], 0, most);
-    s->finished = (int) count[0], s->warned_overlap = (int) count[1], s->warned_energy = (int) count[2];
-    s->next_level = count[3], b->round = count[4], s->spared = count[5], s->evaluations = count[6];
-    b->work = number[0], b->work0 = number[1], b->stored0 = number[2];
-    b->strain0 = number[3], b->kinetic0 = number[4], b->saved = b->round > 0;
+    PG_TRY (keep_solver_counts (s, k));
+    PG_TRY (pg_keep_fields (k, "solver", NULL, "numbers", 1, PG_ROWS (
+        PG_KEPT (b->work), PG_KEPT (b->work0), PG_KEPT (b->stored0), PG_KEPT (b->strain0),
+        PG_KEPT (b->kinetic0))));
+    b->saved = b->round > 0;
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", PG_REACTIONS * nload, s->reaction));
     PG_TRY (keep_broken (b, s->problem, k));

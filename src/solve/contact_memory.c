@@ -193,63 +193,32 @@ void contact_return (pg_system *s)
 static pg_status keep_memory (contact_memory *m, const char *name, const pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    char part[64];
-    long n = (long) m->n;
     size_t values = contact_layout_of ((size_t) s->problem->dim).values;
-    strcat (strcpy (part, name), ".count");
-    PG_TRY (k->counts (k->context, part, 1, &n));
-    PG_KEEP_BOUND (k, "the number of pieces in contact", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
-    if (k->reading) PG_GROW (m->value, m->room, (size_t) n * values);
-    m->n = (size_t) n;
-    strcat (strcpy (part, name), ".friction");
-    PG_TRY (k->numbers (k->context, part, 1, &m->friction));
-    strcat (strcpy (part, name), ".at");
-    PG_TRY (k->numbers (k->context, part, 1, &m->at));
-    strcat (strcpy (part, name), ".values");
-    if (n) PG_TRY (k->numbers (k->context, part, (size_t) n * values, m->value));
+    PG_TRY (pg_keep_fields (k, name, "count", NULL, 1, PG_ROWS (
+        PG_KEPT_IN (m->n, 0, s->problem->first_bond[PG_BOND_SETS], "the number of pieces in contact"))));
+    if (k->reading) PG_GROW (m->value, m->room, m->n * values);
+    PG_TRY (pg_keep_numbers (k, name, "friction", 1, &m->friction));
+    PG_TRY (pg_keep_numbers (k, name, "at", 1, &m->at));
+    if (m->n) PG_TRY (pg_keep_numbers (k, name, "values", m->n * values, m->value));
 done:
     return status;
 }
 
-/* What results have not written yet: three whole numbers and seventeen numbers each. */
-static void give_shown (void *context, size_t i, long *count, double *number)
-{
-    const pg_contact_values *v = &((const pg_system *) context)->contact->shown[i];
-    const double value[] = { v->x[0], v->x[1], v->x[2], v->normal[0], v->normal[1], v->normal[2], v->area,
-                             v->length, v->arc, v->pressure, v->shear[0], v->shear[1], v->shear[2], v->gap,
-                             v->slip[0], v->slip[1], v->slip[2] };
-    count[0] = (long) v->path, count[1] = (long) v->status, count[2] = (long) v->platen;
-    memcpy (number, value, sizeof value);
-}
-
-static pg_status take_shown (void *context, size_t i, const long *count, const double *v, const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    const pg_system *s = context;
-    PG_KEEP_BOUND (k, "the path of a piece", count[0], 0, (long) s->problem->first_bond[PG_BOND_SETS]);
-    PG_KEEP_BOUND (k, "the status of a piece", count[1], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
-    PG_KEEP_BOUND (k, "the platen of a piece", count[2], 0, (long) s->problem->nplaten);
-    s->contact->shown[i] = (pg_contact_values) {
-        .path = (size_t) count[0], .status = (pg_contact_status) count[1], .platen = (size_t) count[2],
-        .x = { v[0], v[1], v[2] }, .normal = { v[3], v[4], v[5] }, .area = v[6], .length = v[7], .arc = v[8],
-        .pressure = v[9], .shear = { v[10], v[11], v[12] }, .gap = v[13], .slip = { v[14], v[15], v[16] } };
-done:
-    return status;
-}
-
+/* What results have not written yet. */
 static pg_status keep_shown (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    long n = (long) c->nshown;
-    PG_TRY (k->counts (k->context, "contact.shown_count", 1, &n));
-    PG_KEEP_BOUND (k, "the number of pieces in contact", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
-    if (k->reading) PG_GROW (c->shown, c->cap_shown, (size_t) n);
-    c->nshown = (size_t) n;
-    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "contact.shown",
-                                                .number_name = "contact.shown_values", .n = c->nshown,
-                                                .counts = 3, .numbers = 17, .give = give_shown,
-                                                .take = take_shown, .context = s }));
+    size_t most = s->problem->first_bond[PG_BOND_SETS];
+    PG_KEEP_LENGTH (k, "contact", "shown_count", c->shown, c->nshown, c->cap_shown, most,
+                    "the number of pieces in contact");
+    PG_TRY (pg_keep_fields (k, "contact", "shown", "shown_values", c->nshown, PG_ROWS (
+        PG_EACH_IN (c->shown, path, 0, most, "the path of a piece"),
+        PG_EACH_IN (c->shown, status, PG_CONTACT_OPEN, PG_CONTACT_SLIDING, "the status of a piece"),
+        PG_EACH_IN (c->shown, platen, 0, s->problem->nplaten, "the platen of a piece"), PG_EACH (c->shown, x),
+        PG_EACH (c->shown, normal), PG_EACH (c->shown, area), PG_EACH (c->shown, length),
+        PG_EACH (c->shown, arc), PG_EACH (c->shown, pressure), PG_EACH (c->shown, shear),
+        PG_EACH (c->shown, gap), PG_EACH (c->shown, slip))));
 done:
     return status;
 }
@@ -264,32 +233,30 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     pg_statistics *r = s->report;
     PG_TRY (platens_keep (s, k));
     if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
-    long count[10] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps, c->touched,
-                       c->made == s->direct.revision + 1, r->contact_pieces, r->contact_open,
-                           r->contact_stick,
-                       r->contact_sliding };
+    long piece[4] = { r->contact_pieces, r->contact_open, r->contact_stick, r->contact_sliding };
+    size_t n = c->pieces.n;
+    int made = c->made == s->direct.revision + 1, active = c->active;
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
     PG_TRY (keep_shown (s, k));
-    PG_TRY (k->counts (k->context, "contact.counts", 10, count));
-    PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
-    PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
-    contact_set_active (s, (int) count[1]), r->contact_passes = count[2], r->contact_sweeps = count[3];
-    c->touched = count[4] != 0;
-    if (k->reading) c->again = count[5] ? s->direct.revision + 1 : 0;
+    PG_TRY (pg_keep_fields (k, "contact", "counts", NULL, 1, PG_ROWS (
+        PG_KEPT_IN (n, c->pieces.n, c->pieces.n, "the number of pieces of cracks"),
+        PG_KEPT_IN (active, 0, 1, "contact"), PG_KEPT (r->contact_passes), PG_KEPT (r->contact_sweeps),
+        PG_KEPT (c->touched), PG_KEPT (made), PG_KEPT (piece))));
+    contact_set_active (s, active);
+    if (k->reading) c->again = made ? s->direct.revision + 1 : 0;
     PG_TRY (contact_route_keep (s, k));
     if (!c->pieces.n) return PG_OK;
     PG_TRY (k->numbers (k->context, "contact.force", c->pieces.dim * c->pieces.n, c->force));
     PG_TRY (k->numbers (k->context, "contact.gap", c->pieces.dim * c->pieces.n, c->gap));
-    PG_TRY (k->bytes (k->context, "contact.status", c->pieces.n, c->status));
-    for (size_t i = 0; k->reading && i < c->pieces.n; i++)
-        PG_KEEP_BOUND (k, "the status of a piece", c->status[i], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
+    PG_TRY (pg_keep_bytes (k, "contact.status", c->pieces.n, c->status, PG_CONTACT_SLIDING,
+                           "the status of a piece"));
     if (k->reading) contact_recall (c);
     if (k->reading) platens_gaps (s);                  /* the work of platens is counted from there */
     if (k->reading) pg_sparse_multiply (&c->G, c->force, c->nodal);
     if (k->reading) contact_count (s);
-    r->contact_pieces = count[6], r->contact_open = count[7];
-    r->contact_stick = count[8], r->contact_sliding = count[9];
+    r->contact_pieces = piece[0], r->contact_open = piece[1];
+    r->contact_stick = piece[2], r->contact_sliding = piece[3];
 done:
     return status;
 }

@@ -406,42 +406,21 @@ void platens_return (contact_platens *w)
     if (w->n) memcpy (w->booked, w->start, 2 * w->all.dim * w->all.n * sizeof *w->start);
 }
 
-/* Forces and motions for results: twelve numbers each. */
-static void give_shown (void *context, size_t i, long *count, double *number)
-{
-    const pg_platen_values *v = &((const pg_platen_values *) context)[i];
-    (void) count;
-    memcpy (number, v->force, sizeof v->force), memcpy (number + 6, v->motion, sizeof v->motion);
-}
-
-static pg_status take_shown (void *context, size_t i, const long *count, const double *number,
-                             const pg_keeper *k)
-{
-    pg_platen_values *v = &((pg_platen_values *) context)[i];
-    (void) count, (void) k;
-    memcpy (v->force, number, sizeof v->force), memcpy (v->motion, number + 6, sizeof v->motion);
-    return PG_OK;
-}
-
 /* Called before the pairs are read: which pieces they are belongs to it. */
 pg_status platens_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     contact_platens *w = &s->contact->platens;
-    long warned = w->warned;
     if (!w->n) return PG_OK;
     PG_TRY (k->bytes (k->context, "platens.taken", w->all.n, w->taken));
-    PG_TRY (k->counts (k->context, "platens.warned", 1, &warned));
-    PG_KEEP_BOUND (k, "a warning of platens", warned, 0, 7);
-    w->warned = (int) warned;
+    PG_TRY (pg_keep_fields (k, "platens", "warned", NULL, 1, PG_ROWS (
+        PG_KEPT_IN (w->warned, 0, 7, "a warning of platens"))));
     PG_TRY (k->numbers (k->context, "platens.motion", 6 * w->n, w->motion[0]));
     PG_TRY (k->numbers (k->context, "platens.reaction", 6 * w->n, w->reaction[0]));
     PG_TRY (k->numbers (k->context, "platens.booked", 2 * w->all.dim * w->all.n, w->booked));
     PG_TRY (k->numbers (k->context, "platens.start", 2 * w->all.dim * w->all.n, w->start));
-    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "platens.shown_counts",
-                                                .number_name = "platens.shown", .n = w->n, .counts = 0,
-                                                .numbers = 12, .give = give_shown, .take = take_shown,
-                                                .context = w->shown }));
+    PG_TRY (pg_keep_fields (k, "platens", NULL, "shown", w->n, PG_ROWS (
+        PG_EACH (w->shown, force), PG_EACH (w->shown, motion))));
 done:
     return status;
 }

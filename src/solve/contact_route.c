@@ -388,15 +388,17 @@ pg_status contact_route_keep (pg_system *s, const pg_keeper *k)
     contact_route *r = &c->route;
     size_t n = rows_of (c);
     pg_contact_track *t = &r->track;
-    long has = r->open[0] != NULL && r->gap != NULL,
-         count[8] = { r->touches, r->ready, t->changes, t->leapt, t->total, t->solves, t->sweeps, t->leaps };
-    double number[4] = { r->from, t->s, t->end, r->reference };
+    long has = r->open[0] != NULL && r->gap != NULL;
     PG_TRY (k->counts (k->context, "contact.route", 1, &has));
     if (!has) return PG_OK;
     if (k->reading) PG_TRY (make_room (s));
-    PG_TRY (k->counts (k->context, "contact.route.counts", 8, count));
-    PG_TRY (k->numbers (k->context, "contact.route.numbers", 4, number));
-    for (int i = 0; i < 4; i++) PG_KEEP_BOUND (k, "a stretch of contact", count[i], 0, 1);
+    PG_TRY (pg_keep_fields (k, "contact.route", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (r->touches, 0, 1, "a stretch of contact"),
+        PG_KEPT_IN (r->ready, 0, 1, "a stretch of contact"),
+        PG_KEPT_IN (t->changes, 0, 1, "a stretch of contact"),
+        PG_KEPT_IN (t->leapt, 0, 1, "a stretch of contact"), PG_KEPT (t->total), PG_KEPT (t->solves),
+        PG_KEPT (t->sweeps), PG_KEPT (t->leaps), PG_KEPT (r->from), PG_KEPT (t->s), PG_KEPT (t->end),
+        PG_KEPT (r->reference))));
     PG_TRY (k->numbers (k->context, "contact.route.open_from", s->ndof, r->open[0]));
     PG_TRY (k->numbers (k->context, "contact.route.open_to", s->ndof, r->open[1]));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.gap", n, r->gap));
@@ -405,9 +407,6 @@ pg_status contact_route_keep (pg_system *s, const pg_keeper *k)
     if (n) PG_TRY (k->numbers (k->context, "contact.route.gap_rate", n, t->gap_rate));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.force_from", n, r->force_from));
     if (n) PG_TRY (k->bytes (k->context, "contact.route.due", c->pieces.n, t->due));
-    r->touches = (int) count[0], r->ready = (int) count[1], t->changes = (int) count[2];
-    t->leapt = (int) count[3], t->total = count[4], t->solves = count[5], t->sweeps = count[6];
-    t->leaps = count[7], r->from = number[0], t->s = number[1], t->end = number[2], r->reference = number[3];
 done:
     return status;
 }

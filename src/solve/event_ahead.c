@@ -413,24 +413,18 @@ void ahead_tell (pg_solver *s)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* The events that wait: where they are in the lists, and their bonds. */
+/* The events that wait: where they are in the lists, and their bonds. Places that are free are zero. */
 static pg_status keep_events (event_ahead *q, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[2 * AHEAD_MOST] = { 0 };
-    double number[2 * AHEAD_MOST] = { 0 };
-    for (size_t i = 0; i < q->nevent && !k->reading; i++) {
-        count[2 * i] = (long) q->event[i].first, count[2 * i + 1] = (long) q->event[i].n;
-        number[2 * i] = q->event[i].factor, number[2 * i + 1] = q->event[i].top;
-    }
-    PG_TRY (k->counts (k->context, "event_ahead.events", 2 * AHEAD_MOST, count));
-    PG_TRY (k->numbers (k->context, "event_ahead.factors", 2 * AHEAD_MOST, number));
-    for (size_t i = 0; i < q->nevent && k->reading; i++) {
-        PG_KEEP_BOUND (k, "the bonds of an event", count[2 * i], 0, (long) q->nbroken);
-        PG_KEEP_BOUND (k, "the bonds of an event", count[2 * i + 1], 1, (long) q->nbroken - count[2 * i]);
-        q->event[i] = (ahead_event) { number[2 * i], number[2 * i + 1], (size_t) count[2 * i],
-                                      (size_t) count[2 * i + 1] };
-    }
+    ahead_event event[AHEAD_MOST] = { { 0 } }, *v = event;
+    if (!k->reading) memcpy (event, q->event, q->nevent * sizeof *event);
+    PG_TRY (pg_keep_fields (k, "event_ahead", "events", "factors", AHEAD_MOST, PG_ROWS (
+        PG_EACH_IN (v, first, 0, q->nbroken, "the bonds of an event"), PG_EACH (v, n), PG_EACH (v, factor),
+        PG_EACH (v, top))));
+    for (size_t i = 0; i < q->nevent; i++)
+        PG_KEEP_BOUND (k, "the bonds of an event", v[i].n, 1, q->nbroken - v[i].first);
+    memcpy (q->event, event, q->nevent * sizeof *event);
     if (k->reading) PG_GROW (q->broken, q->cap_broken, q->nbroken + 1);
     PG_TRY (pg_broken_keep (p, "event_ahead.broken", q->nbroken, q->broken, k));
 done:
@@ -443,37 +437,31 @@ pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
-    event_ahead *q = e->ahead;
+    event_ahead none = { .nevent = 0 }, *q;
     const pg_system *sys = &s->break_loop.system;
-    long count[10] = { q != NULL };
-    double number[2] = { 0 }, share;
-    if (q)
-        memcpy (count + 1,
-                (const long[]) { (long) q->nevent, (long) q->at, (long) q->stride, (long) q->nbroken, q->wait,
-                                 q->due, q->zone.known, q->found, q->taken_back },
-                9 * sizeof *count);
-    if (q) number[0] = q->cold, number[1] = q->residual;
-    PG_TRY (k->counts (k->context, "event_ahead.counts", 10, count));
-    PG_TRY (k->numbers (k->context, "event_ahead.numbers", 2, number));
-    if (!count[0]) return PG_OK;
-    PG_KEEP_BOUND (k, "the number of events found", count[1], 0, AHEAD_MOST);
-    PG_KEEP_BOUND (k, "the next event", count[2], 0, count[1]);
-    PG_KEEP_BOUND (k, "the width of a block", count[3], 0, AHEAD_MOST);
-    PG_KEEP_BOUND (k, "the bonds found", count[4], 0, (long) s->problem->first_bond[PG_BOND_SETS]);
-    if (!q) PG_TRY (create (&e->ahead, sys->ndof));
-    q = e->ahead;
-    if (k->reading) {
-        q->nevent = (size_t) count[1], q->at = (size_t) count[2], q->stride = (size_t) count[3];
-        q->nbroken = (size_t) count[4], q->wait = count[5], q->due = (int) count[6];
-        q->found = count[8], q->taken_back = count[9];
-        q->cold = number[0], q->residual = number[1];
+    double share;
+    int ahead = e->ahead != NULL;
+    if (k->reading && !ahead) PG_TRY (create (&e->ahead, sys->ndof));
+    q = e->ahead ? e->ahead : &none;
+    int known = q->zone.known;
+    PG_TRY (pg_keep_fields (k, "event_ahead", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT (ahead), PG_KEPT_IN (q->nevent, 0, AHEAD_MOST, "the number of events found"),
+        PG_KEPT_IN (q->at, 0, AHEAD_MOST, "the next event"),
+        PG_KEPT_IN (q->stride, 0, AHEAD_MOST, "the width of a block"),
+        PG_KEPT_IN (q->nbroken, 0, s->problem->first_bond[PG_BOND_SETS], "the bonds found"), PG_KEPT (q->wait),
+        PG_KEPT (q->due), PG_KEPT (known), PG_KEPT (q->found), PG_KEPT (q->taken_back), PG_KEPT (q->cold),
+        PG_KEPT (q->residual))));
+    if (!ahead) {
+        if (k->reading) ahead_free (&e->ahead);
+        return PG_OK;
     }
+    PG_KEEP_BOUND (k, "the next event", q->at, 0, q->nevent);
     PG_TRY (keep_events (q, s->problem, k));
     if (q->at < q->nevent) {
         if (!q->block) PG_ALLOC (q->block, sys->ndof * AHEAD_MOST);
         PG_TRY (k->numbers (k->context, "event_ahead.block", sys->ndof * q->stride, q->block));
     }
-    if (!count[7]) return PG_OK;
+    if (!known) return PG_OK;
     PG_TRY (event_zone_room (&q->zone, s->problem));
     PG_TRY (k->bytes (k->context, "event_ahead.levels", s->problem->cloud.n, q->zone.level));
     if (!k->reading) goto done;

@@ -447,19 +447,17 @@ static pg_status keep_cases (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     size_t ndof = e->inverse->s->ndof, t = e->inverse->touched.t;
-    static const char *const names[EVENT_CASES][5] = {
-        { "event_solver.base.0", "event_solver.constant.0", "event_solver.x.0", "event_solver.p.0",
-          "event_solver.q.0" },
-        { "event_solver.base.1", "event_solver.constant.1", "event_solver.x.1", "event_solver.p.1",
-          "event_solver.q.1" },
-    };
     if (k->reading) PG_TRY (make_room (e));
     for (int c = 0; c < e->cases; c++) {
         event_case *o = &e->of[c];
-        double *const array[5] = { o->base, o->constant, o->x, o->p, o->q };
+        const struct { const char *name; size_t n; double *value; } of_case[5] = {
+            { "base", ndof, o->base }, { "constant", ndof, o->constant }, { "x", t, o->x }, { "p", t, o->p },
+            { "q", t, o->q } };
         for (int i = 0; i < 5; i++) {
-            size_t n = i < 2 ? ndof : t;
-            if (n) PG_TRY (k->numbers (k->context, names[c][i], n, array[i]));
+            char name[32];
+            snprintf (name, sizeof name, "%s.%d", of_case[i].name, c);
+            if (of_case[i].n)
+                PG_TRY (pg_keep_numbers (k, "event_solver", name, of_case[i].n, of_case[i].value));
         }
     }
 done:
@@ -471,25 +469,21 @@ static pg_status keep_block (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char name[48];
-    long count = e->count, t;
-    PG_TRY (k->counts (k->context, "event_solver.events", 1, &count));
-    PG_KEEP_BOUND (k, "the events of a block", count, 0, EVENT_MOST);
-    e->count = (int) count;
+    PG_TRY (pg_keep_fields (k, "event_solver", "events", NULL, 1, PG_ROWS (
+        PG_KEPT_IN (e->count, 0, EVENT_MOST, "the events of a block"))));
     for (int i = 0; i <= e->count; i++) {
-        t = (long) e->tX[i];
-        snprintf (name, sizeof name, "event_solver.forces.%d", i);
-        PG_TRY (k->counts (k->context, strcat (name, ".n"), 1, &t));
-        PG_KEEP_BOUND (k, "the unknowns of an event", t, 0, (long) e->inverse->touched.t);
-        e->tX[i] = (size_t) t;
+        snprintf (name, sizeof name, "forces.%d.n", i);
+        PG_TRY (pg_keep_fields (k, "event_solver", name, NULL, 1, PG_ROWS (
+            PG_KEPT_IN (e->tX[i], 0, e->inverse->touched.t, "the unknowns of an event"))));
         for (int c = 0; c < e->cases; c++) {
             double **X = &e->of[c].X[i];
-            snprintf (name, sizeof name, "event_solver.forces.%d.%d", i, c);
+            snprintf (name, sizeof name, "forces.%d.%d", i, c);
             if (k->reading) {
                 pg_free (*X);
                 *X = NULL;
                 PG_ALLOC (*X, e->tX[i] + 1);
             }
-            if (t) PG_TRY (k->numbers (k->context, name, e->tX[i], *X));
+            if (e->tX[i]) PG_TRY (pg_keep_numbers (k, "event_solver", name, e->tX[i], *X));
         }
     }
 done:
@@ -499,10 +493,9 @@ done:
 pg_status event_solver_keep (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    double number[2] = { e->scale, e->residual };
     PG_TRY (inverse_keep (e->inverse, k));
-    PG_TRY (k->numbers (k->context, "event_solver.numbers", 2, number));
-    e->scale = number[0], e->residual = number[1];
+    PG_TRY (pg_keep_fields (k, "event_solver", NULL, "numbers", 1, PG_ROWS (
+        PG_KEPT (e->scale), PG_KEPT (e->residual))));
     if (k->reading) e->filled = 0;
     if (!e->inverse->base.made) goto done;
     PG_TRY (keep_cases (e, k));

@@ -542,33 +542,29 @@ void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
         progress_offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
 }
 
-/* The reason of an end that was found already, the first stiffness, and what is known of the equilibria.
- * *solved: there are some. */
-static pg_status keep_numbers (event_stepping *e, const pg_keeper *k, int *solved)
+/* The reason of an end that was found already, residuals, the first stiffness. *unit: 1: the displacement at
+ * load factor 1 is kept too. */
+static pg_status keep_ends (event_stepping *e, int *unit, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[5] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->constant_events, e->lost };
-    double number[2] = { e->unit_residual, e->secant0 };
-    PG_TRY (k->counts (k->context, "event_stepping.counts", 5, count));
-    PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
-    PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
-    e->ended = (pg_status) count[0], e->balance_fresh = (int) count[1], e->constant_events = count[3];
-    e->lost = count[4] != 0, *solved = count[2] != 0;
-    e->unit_residual = number[0], e->secant0 = number[1];
-    PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
+    *unit = e->unit != NULL;
+    PG_TRY (pg_keep_fields (k, "event_stepping", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (e->ended, 0, 63, "the end of the run"), PG_KEPT (e->balance_fresh), PG_KEPT (*unit),
+        PG_KEPT (e->constant_events), PG_KEPT (e->lost), PG_KEPT (e->unit_residual), PG_KEPT (e->secant0))));
+    PG_TRY (pg_keep_text (k, "event_stepping.why", sizeof e->why, e->why));
 done:
     return status;
 }
 
-/* Besides, the displacement at load factor 1 (and 0). */
+/* These, and the displacements at load factor 1 (and 0). */
 pg_status event_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     size_t ndof = s->break_loop.system.ndof;
-    int solved;
-    PG_TRY (keep_numbers (e, k, &solved));
-    if (solved && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
+    int unit;
+    PG_TRY (keep_ends (e, &unit, k));
+    if (unit && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
     PG_TRY (ahead_keep (s, k));
     if (e->engine) {
@@ -589,17 +585,16 @@ pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
-    const pg_keeper *k = moved->alike;
     break_loop *b = &s->break_loop;
     size_t components = (size_t) b->system.components;
-    int solved;
-    PG_TRY (keep_numbers (e, k, &solved));
+    int unit;
+    PG_TRY (keep_ends (e, &unit, moved->alike));
     PG_TRY (moved->points (moved->context, "event_stepping.unit", components, e->unit));
     if (e->base) PG_TRY (moved->points (moved->context, "event_stepping.base", components, e->base));
     e->lost = 1, e->balance_fresh = 0;
     if (e->engine) event_solver_drop (e->engine);
     ahead_refused (e->ahead);
-    PG_TRY (instability_moved (s, &e->unstable, k));
+    PG_TRY (instability_moved (s, &e->unstable, moved->alike));
     event_displacement (s, state->factor, b->system.balance.scratch);
     PG_TRY (moved_balance (b, state->factor, b->system.balance.scratch, 1));
 done:

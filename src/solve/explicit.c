@@ -365,10 +365,9 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
-    double number[5] = { m->damped, m->damped0, m->resist, m->resist0, m->most };
-    PG_TRY (k->numbers (k->context, "motion.numbers", 5, number));
-    m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3],
-    m->most = number[4];
+    PG_TRY (pg_keep_fields (k, "motion", NULL, "numbers", 1, PG_ROWS (
+        PG_KEPT (m->damped), PG_KEPT (m->damped0), PG_KEPT (m->resist), PG_KEPT (m->resist0),
+        PG_KEPT (m->most))));
     if (m->nprescribed) PG_TRY (keep_prescribed (s, k));
     if (m->nprescribed) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nprescribed, m->push));
     if (k->reading) m->fresh = 0;

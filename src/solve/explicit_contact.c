@@ -262,12 +262,9 @@ pg_status explicit_contact_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct explicit_contact *c = motion_of (s)->contact;
-    long count = c ? c->warned : 0;
     if (!c) return PG_OK;
-    double number[2] = { c->energy0, c->friction0 };
-    PG_TRY (k->counts (k->context, "contact.warned", 1, &count));
-    PG_TRY (k->numbers (k->context, "contact.energies", 2, number));
-    c->warned = count != 0, c->energy0 = number[0], c->friction0 = number[1];
+    PG_TRY (pg_keep_fields (k, "contact", "warned", "energies", 1, PG_ROWS (
+        PG_KEPT (c->warned), PG_KEPT (c->energy0), PG_KEPT (c->friction0))));
     if (k->reading) c->broken = -1;
     if (c->pairs) PG_TRY (pg_short_range_keep (c->pairs, k));
     if (c->platens) PG_TRY (pg_moving_platens_keep (c->platens, k));

@@ -86,11 +86,9 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     if (!g) return PG_OK;
-    long count[2] = { (long) g->said, g->unjudged };
-    PG_TRY (k->counts (k->context, "facets.said", 2, count));
-    PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
-    PG_KEEP_BOUND (k, "what was said of facets", count[0], 0, FACET_SAID_ALL);
-    g->said = (unsigned) count[0], g->unjudged = count[1];
+    PG_TRY (pg_keep_fields (k, "facets", "said", "needed", 1, PG_ROWS (
+        PG_KEPT_IN (g->said, 0, FACET_SAID_ALL, "what was said of facets"), PG_KEPT (g->unjudged),
+        PG_KEPT (g->needed))));
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
     PG_TRY (facet_motion_keep (b, k));
 done:

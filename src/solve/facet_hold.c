@@ -172,34 +172,28 @@ done:
 }
 
 /* ---- checkpoints and refused steps --------------------------------------------------------------------- */
-/* Arrays of facet i; each has a name of its own. */
-static const char *named (char *name, size_t size, const char *what, size_t i)
-{
-    snprintf (name, size, "facets.%s.%zu", what, i);
-    return name;
-}
-
 static pg_status keep_one (break_loop *b, size_t i, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     const facet_growth *g = b->growth;
     facet_hold *h = &g->hold[i];
-    char name[64];
-    long count[3] = { h->tip, (long) h->n, h->alone };
-    PG_TRY (k->counts (k->context, named (name, sizeof name, "opening", i), 3, count));
-    PG_TRY (k->numbers (k->context, named (name, sizeof name, "opened", i), 6, &h->way));  /* up to drop */
-    PG_KEEP_BOUND (k, "the tip of a facet that opens", count[0], 0, (long) g->nrun - 1);
-    PG_KEEP_BOUND (k, "the unknowns that a facet holds", count[1], 0, (long) b->system.ndof);
+    char name[2][32];
+    size_t n = h->n;
+    snprintf (name[0], sizeof name[0], "opening.%zu", i), snprintf (name[1], sizeof name[1], "opened.%zu", i);
+    PG_TRY (pg_keep_fields (k, "facets", name[0], name[1], 1, PG_ROWS (
+        PG_KEPT_IN (h->tip, 0, (long) g->nrun - 1, "the tip of a facet that opens"),
+        PG_KEPT_IN (n, 0, b->system.ndof, "the unknowns that a facet holds"), PG_KEPT (h->alone),
+        PG_KEPT (h->way), PG_KEPT (h->length), PG_KEPT (h->energy), PG_KEPT (h->way0), PG_KEPT (h->product),
+        PG_KEPT (h->drop))));
     if (k->reading) {
-        h->tip = count[0], h->alone = count[2] != 0;
-        PG_ALLOC (h->unknown, (size_t) count[1] + 1);
-        PG_ALLOC (h->force, (size_t) count[1] + 1);
-        h->n = (size_t) count[1];
+        PG_ALLOC (h->unknown, n + 1);
+        PG_ALLOC (h->force, n + 1);
+        h->n = n;
     }
-    PG_TRY (k->counts (k->context, named (name, sizeof name, "unknowns", i), h->n, h->unknown));
-    PG_TRY (k->numbers (k->context, named (name, sizeof name, "forces", i), h->n, h->force));
-    for (size_t j = 0; j < h->n; j++)
-        PG_KEEP_BOUND (k, "an unknown that a facet holds", h->unknown[j], 0, (long) b->system.ndof - 1);
+    snprintf (name[0], sizeof name[0], "unknowns.%zu", i), snprintf (name[1], sizeof name[1], "forces.%zu", i);
+    PG_TRY (pg_keep_fields (k, "facets", name[0], name[1], 1, PG_ROWS (
+        PG_ITEMS_IN (h->unknown, n, 0, b->system.ndof - 1, "an unknown that a facet holds"),
+        PG_ITEMS (h->force, n))));
 done:
     return status;
 }

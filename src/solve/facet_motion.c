@@ -297,16 +297,14 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    long n = (long) g->nrun;
-    PG_TRY (k->counts (k->context, "facets.running", 1, &n));
-    PG_KEEP_BOUND (k, "the tips that run", n, 0, (long) b->system.problem->first_bond[PG_BOND_SETS]);
-    if (k->reading) PG_GROW (g->run, g->cap_run, (size_t) n);
-    g->nrun = (size_t) n;
-    const size_t each = sizeof (facet_run) / sizeof (double);          /* it is numbers alone */
-    if (n) PG_TRY (k->numbers (k->context, "facets.speed", each * g->nrun, &g->run->speed));
-    double last[2] = { g->since, g->top };
-    PG_TRY (k->numbers (k->context, "facets.since", 2, last));
-    g->since = last[0], g->top = last[1];
+    PG_KEEP_LENGTH (k, "facets", "running", g->run, g->nrun, g->cap_run,
+                    b->system.problem->first_bond[PG_BOND_SETS], "the tips that run");
+    facet_run *r = g->run;
+    PG_TRY (pg_keep_fields (k, "facets", NULL, "speed", g->nrun, PG_ROWS (
+        PG_EACH (r, speed), PG_EACH (r, g), PG_EACH (r, mean), PG_EACH (r, steady), PG_EACH (r, way),
+        PG_EACH (r, length), PG_EACH (r, least), PG_EACH (r, straight), PG_EACH (r, come), PG_EACH (r, taken),
+        PG_EACH (r, shown))));
+    PG_TRY (pg_keep_fields (k, "facets", NULL, "since", 1, PG_ROWS (PG_KEPT (g->since), PG_KEPT (g->top))));
     PG_TRY (facet_hold_keep (b, k));
 done:
     return status;

@@ -167,12 +167,10 @@ pg_status system_guess_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_guess *g = &s->iterative.guess;
-    long count[4] = { g->n, g->next, g->fresh, s->balance.unmeasured };
-    PG_TRY (k->counts (k->context, "system.guess", 4, count));
-    PG_KEEP_BOUND (k, "the pairs of a first guess", count[0], 0, PAIRS);
-    PG_KEEP_BOUND (k, "the next pair of a first guess", count[1], 0, PAIRS);
-    g->n = (int) count[0], g->next = (int) count[1], g->fresh = count[2] != 0;
-    s->balance.unmeasured = count[3];
+    PG_TRY (pg_keep_fields (k, "system", "guess", NULL, 1, PG_ROWS (
+        PG_KEPT_IN (g->n, 0, PAIRS, "the pairs of a first guess"),
+        PG_KEPT_IN (g->next, 0, PAIRS, "the next pair of a first guess"), PG_KEPT (g->fresh),
+        PG_KEPT (s->balance.unmeasured))));
     if (g->n == 0) goto done;
     PG_TRY (guess_ready (s));
     PG_TRY (k->numbers (k->context, "system.guess.x", (PAIRS + 1) * s->ndof, g->x));

@@ -377,27 +377,24 @@ done:
 }
 
 /* ---- checkpoint ---------------------------------------------------------------------------------------- */
+static pg_status keep_numbers (pg_solver *s, instability *u, const pg_keeper *k)
+{
+    pg_statistics *r = &s->report;
+    int last = s->options.on_instability == PG_UNSTABLE_DYNAMIC ? PHASE_SETTLING : PHASE_REST;
+    return pg_keep_fields (k, "instability", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (u->phase, PHASE_REST, last, "the phase of a motion"), PG_KEPT (u->held),
+        PG_KEPT (u->count), PG_KEPT_IN (u->settling, 0, MOST_SETTLING, "a step of settling"),
+        PG_KEPT_IN (u->mode, SYSTEM_UNDECIDED, SYSTEM_DIAGONAL, "the way to solve"),
+        PG_KEPT (r->instabilities), PG_KEPT (r->unstable_steps), PG_KEPT (u->time), PG_KEPT (u->last_break),
+        PG_KEPT (r->motion_time), PG_KEPT (r->switch_jump), PG_KEPT (u->needed), PG_KEPT (u->dissipated)));
+}
+
 pg_status instability_keep (pg_solver *s, instability *u, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     if (s->options.on_instability == PG_UNSTABLE_FOLLOW) return PG_OK;
     int dynamic = s->options.on_instability == PG_UNSTABLE_DYNAMIC;
-    pg_statistics *r = &s->report;
-    long count[8] = { u->phase,   u->held,    u->count,         u->settling,
-                      u->mode[0], u->mode[1], r->instabilities, r->unstable_steps };
-    double number[6] = { u->time, u->last_break, r->motion_time, r->switch_jump, u->needed, u->dissipated };
-    PG_TRY (k->counts (k->context, "instability.counts", 8, count));
-    PG_TRY (k->numbers (k->context, "instability.numbers", 6, number));
-    PG_KEEP_BOUND (k, "the phase of a motion", count[0], PHASE_REST, dynamic ? PHASE_SETTLING : PHASE_REST);
-    PG_KEEP_BOUND (k, "a step of settling", count[3], 0, MOST_SETTLING);
-    for (int i = 4; i < 6; i++)
-        PG_KEEP_BOUND (k, "the way to solve", count[i], SYSTEM_UNDECIDED, SYSTEM_DIAGONAL);
-    u->phase = (int) count[0], u->held = (int) count[1], u->count = count[2], u->settling = count[3];
-    u->mode[0] = (int) count[4], u->mode[1] = (int) count[5];
-    u->time = number[0], u->last_break = number[1];
-    r->instabilities = count[6], r->unstable_steps = count[7];
-    r->motion_time = number[2], r->switch_jump = number[3];
-    u->needed = number[4], u->dissipated = number[5];
+    PG_TRY (keep_numbers (s, u, k));
     if (dynamic) PG_TRY (k->numbers (k->context, "instability.rest", s->break_loop.system.ndof, u->rest));
     if (u->scheme.force0)
         PG_TRY (k->numbers (k->context, "instability.force0", s->break_loop.system.ndof, u->scheme.force0));
@@ -411,18 +408,13 @@ done:
 pg_status instability_moved (pg_solver *s, instability *u, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    pg_statistics *r = &s->report;
-    long count[8];
-    double number[6];
     if (s->options.on_instability == PG_UNSTABLE_FOLLOW) return PG_OK;
-    PG_TRY (k->counts (k->context, "instability.counts", 8, count));
-    PG_TRY (k->numbers (k->context, "instability.numbers", 6, number));
-    if (count[0] != PHASE_REST)
+    PG_TRY (keep_numbers (s, u, k));
+    if (u->phase != PHASE_REST)
         PG_FAIL (PG_E_USAGE, "an event has set the body in motion, which goes on only among as many "
                  "processes as before, until it has come to rest");
-    u->held = (int) count[1], u->count = count[2];
-    r->instabilities = count[6], r->unstable_steps = count[7];
-    u->time = number[0], u->last_break = number[1], r->motion_time = number[2], r->switch_jump = number[3];
+    memset (u->mode, 0, sizeof u->mode);
+    u->settling = 0, u->needed = u->dissipated = 0;
 done:
     return status;
 }

@@ -203,32 +203,24 @@ static pg_status keep_touched (inverse *v, const pg_keeper *k)
     green_columns *g = &v->columns;
     touched_unknowns *w = &v->touched;
     pg_status status = PG_OK;
-    long *word = NULL, count[2] = { (long) w->t, (long) g->ngroup };
-    size_t sum = 0;
-    PG_TRY (k->counts (k->context, "inverse.touched", 2, count));
-    PG_KEEP_BOUND (k, "the number of touched unknowns", count[0], 0, (long) v->s->ndof);
-    PG_KEEP_BOUND (k, "the groups of touched unknowns", count[1], 0, count[0]);
+    size_t t = w->t, ngroup = g->ngroup, ndof = v->s->ndof, sum = 0;
+    PG_TRY (pg_keep_fields (k, "inverse", "touched", NULL, 1, PG_ROWS (
+        PG_KEPT_IN (t, 0, ndof, "the number of touched unknowns"),
+        PG_KEPT_IN (ngroup, 0, ndof, "the groups of touched unknowns"))));
+    PG_KEEP_BOUND (k, "the groups of touched unknowns", ngroup, 0, t);
     if (k->reading) {
         touched_clear (v);
-        PG_TRY (touched_reserve (v, (size_t) count[0]));
-        PG_GROW (g->group, g->room_group, (size_t) count[1]);
+        PG_TRY (touched_reserve (v, t));
+        PG_GROW (g->group, g->room_group, ngroup);
     }
-    PG_ALLOC (word, (size_t) (count[0] + count[1]) + 1);
-    for (size_t i = 0; i < w->t; i++) word[i] = (long) w->dof[i];
-    for (size_t i = 0; i < g->ngroup; i++) word[w->t + i] = (long) g->group[i];
-    PG_TRY (k->counts (k->context, "inverse.unknowns", (size_t) (count[0] + count[1]), word));
-    for (long i = 0; i < count[0]; i++)
-        PG_KEEP_BOUND (k, "a touched unknown", word[i], 0, (long) v->s->ndof - 1);
-    for (long i = 0; i < count[1]; i++) {
-        PG_KEEP_BOUND (k, "a group of touched unknowns", word[count[0] + i], 1, count[0]);
-        sum += (size_t) word[count[0] + i];
-    }
-    PG_KEEP_BOUND (k, "the sum of the groups", (long) sum, count[0], count[0]);
-    w->t = (size_t) count[0], g->ngroup = (size_t) count[1];
-    for (size_t i = 0; i < w->t; i++) w->dof[i] = (size_t) word[i], w->at[word[i]] = (int) i + 1;
-    for (size_t i = 0; i < g->ngroup; i++) g->group[i] = (size_t) word[w->t + i];
+    PG_TRY (pg_keep_fields (k, "inverse", "unknowns", NULL, 1, PG_ROWS (
+        PG_ITEMS_IN (w->dof, t, 0, ndof - 1, "a touched unknown"),
+        PG_ITEMS_IN (g->group, ngroup, 1, t, "a group of touched unknowns"))));
+    for (size_t i = 0; i < ngroup; i++) sum += g->group[i];
+    PG_KEEP_BOUND (k, "the sum of the groups", sum, t, t);
+    w->t = t, g->ngroup = ngroup;
+    for (size_t i = 0; i < t; i++) w->at[w->dof[i]] = (int) i + 1;
 done:
-    pg_free (word);
     return status;
 }
 
@@ -237,13 +229,10 @@ pg_status inverse_keep (inverse *v, const pg_keeper *k)
     inverse_base *b = &v->base;
     touched_unknowns *w = &v->touched;
     pg_status status = PG_OK;
-    long count[1] = { b->made };
-    double number[4] = { b->spring, v->rent, b->k, v->columns.seconds };
-    PG_TRY (k->counts (k->context, "inverse.counts", 1, count));
-    PG_TRY (k->numbers (k->context, "inverse.numbers", 4, number));
-    PG_KEEP_BOUND (k, "the base of events", count[0], 0, 1);
-    b->spring = number[0], v->rent = number[1], b->k = number[2], v->columns.seconds = number[3];
-    if (k->reading) b->made = (int) count[0], v->s->updates.base |= b->made;
+    PG_TRY (pg_keep_fields (k, "inverse", "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (b->made, 0, 1, "the base of events"), PG_KEPT (b->spring), PG_KEPT (v->rent),
+        PG_KEPT (b->k), PG_KEPT (v->columns.seconds))));
+    if (k->reading) v->s->updates.base |= b->made;
     if (!b->made) goto done;
     PG_TRY (k->numbers (k->context, "inverse.diagonal", v->s->ndof, b->diagonal));
     PG_TRY (keep_touched (v, k));

@@ -8,44 +8,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Does a step begin again whose middle the run had reached? */
-static pg_status take_counts (pg_solver *s, const pg_moved *m, int *within)
-{
-    pg_status status = PG_OK;
-    long count[7];
-    PG_TRY (m->alike->counts (m->alike->context, "solver.counts", 7, count));
-    PG_KEEP_BOUND (m->alike, "the next level", count[3], 0, s->options.levels + 1);
-    *within = count[4] > 0;
-    s->finished = count[0] != 0, s->warned_overlap = count[1] != 0, s->warned_energy = count[2] != 0;
-    s->next_level = count[3], s->spared = count[5], s->evaluations = count[6];
-    s->break_loop.round = 0, s->break_loop.nbroken = 0;
-done:
-    return status;
-}
-
 /* Counts, times, displacements, velocities and bonds of the last step. */
 static pg_status take_state (const pg_solver *s, pg_state *state, const pg_moved *m, const char *name)
 {
     pg_status status = PG_OK;
-    const pg_keeper *k = m->alike;
     size_t components = (size_t) s->break_loop.system.components;
+    double *vector[3] = { state->d, state->v, state->a };
     char part[32];
-    long count[5];
-    double number[3];
-    snprintf (part, sizeof part, "%s.counts", name);
-    PG_TRY (k->counts (k->context, part, 5, count));
-    snprintf (part, sizeof part, "%s.numbers", name);
-    PG_TRY (k->numbers (k->context, part, 3, number));
-    for (int i = 0; i < 5; i++) PG_KEEP_BOUND (k, name, count[i], 0, 1L << 50);
-    state->step = count[0], state->events = count[1], state->iterations = count[2];
-    state->history_rows = count[4];
-    state->time = number[0], state->factor = number[1];
-    snprintf (part, sizeof part, "%s.d", name);
-    PG_TRY (m->points (m->context, part, components, state->d));
-    snprintf (part, sizeof part, "%s.v", name);
-    PG_TRY (m->points (m->context, part, components, state->v));
-    snprintf (part, sizeof part, "%s.a", name);
-    PG_TRY (m->points (m->context, part, components, state->a));
+    PG_TRY (keep_state_numbers (state, name, m->alike));
+    for (int v = 0; v < 3; v++) {
+        snprintf (part, sizeof part, "%s.%c", name, "dva"[v]);
+        PG_TRY (m->points (m->context, part, components, vector[v]));
+    }
     PG_TRY (m->bonds (m->context, state->alive));
 done:
     return status;
@@ -101,7 +75,6 @@ pg_status pg_solver_move (pg_solver *s, pg_state *state, const pg_moved *m)
 {
     pg_status status = PG_OK;
     pg_system *sys = &s->break_loop.system;
-    int within = 0;
     if (!s->type->move || s->break_loop.growth || sys->contact || pg_problem_removes (s->problem))
         PG_FAIL (PG_E_USAGE, "a run of solver.kind: %s%s goes on only among as many processes as it had",
                  s->options.kind, s->break_loop.growth ? " with cracks that grow by facets"
@@ -109,7 +82,9 @@ pg_status pg_solver_move (pg_solver *s, pg_state *state, const pg_moved *m)
                                   : pg_problem_removes (s->problem) ? " with stages that remove"
                                                        : "");
     PG_TRY (solver_start (s, state));
-    PG_TRY (take_counts (s, m, &within));
+    PG_TRY (keep_solver_counts (s, m->alike));
+    const int within = s->break_loop.round > 0;            /* a step begins again whose middle the run had reached */
+    s->break_loop.round = 0, s->break_loop.nbroken = 0;
     PG_TRY (take_state (s, state, m, within ? "backup" : "state"));
     PG_TRY (take_report (s, state, m));
     PG_TRY (stages_moved (s, m, within));

@@ -513,10 +513,11 @@ void relaxation_refused (pg_solver *s)
     x->resting = 1, x->armed = x->pending = 0;
 }
 
-static void take_numbers (struct relaxation *x, const double *number)
+static pg_status keep_numbers (struct relaxation *x, const char *name, const pg_keeper *k)
 {
-    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3],
-    x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
+    return pg_keep_fields (k, "relaxation", NULL, name, 1, PG_ROWS (
+        PG_KEPT (x->c), PG_KEPT (x->imbalance), PG_KEPT (x->worst), PG_KEPT (x->most), PG_KEPT (x->stiff),
+        PG_KEPT (x->heavy), PG_KEPT (x->floor)));
 }
 
 /* These, and where in a stage the body is. */
@@ -524,15 +525,11 @@ pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct relaxation *x = motion_of (s)->relaxation;
-    double number[RELAXATION_NUMBERS];
-    long count[4] = { x->armed, x->resting, x->pending, x->broke };
-    give_numbers (x, number);
-    PG_TRY (k->numbers (k->context, "relaxation.numbers", RELAXATION_NUMBERS, number));
+    PG_TRY (keep_numbers (x, "numbers", k));
     PG_TRY (k->numbers (k->context, "relaxation.start", RELAXATION_NUMBERS, x->start));
-    PG_TRY (k->counts (k->context, "relaxation.counts", 4, count));
-    take_numbers (x, number);
-    x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2],
-    x->broke = (int) count[3], x->read = k->reading;
+    PG_TRY (pg_keep_fields (k, "relaxation", "counts", NULL, 1, PG_ROWS (
+        PG_KEPT (x->armed), PG_KEPT (x->resting), PG_KEPT (x->pending), PG_KEPT (x->broke))));
+    x->read = k->reading;
 done:
     return status;
 }
@@ -542,14 +539,10 @@ done:
 pg_status relaxation_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
 {
     pg_status status = PG_OK;
-    const pg_keeper *k = moved->alike;
     const pg_subdomain *part = s->problem->cloud.subdomain;
     struct relaxation *x = motion_of (s)->relaxation;
     size_t components = (size_t) s->break_loop.system.components;
-    double number[RELAXATION_NUMBERS];
-    PG_TRY (k->numbers (k->context, within ? "relaxation.start" : "relaxation.numbers", RELAXATION_NUMBERS,
-                        number));
-    take_numbers (x, number);
+    PG_TRY (keep_numbers (x, within ? "start" : "numbers", moved->alike));
     x->armed = x->pending = x->broke = 0, x->resting = state->iterations == 0, x->read = 1;
     motion_of (s)->fresh = 0;
     pg_subdomain_clear_ghosts (part, components, state->v);

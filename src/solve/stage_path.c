@@ -286,55 +286,19 @@ const pg_stage_record *pg_solver_stages (const pg_solver *s, size_t *n)
 }
 
 /* ---- checkpoint ---------------------------------------------------------------------------------------- */
-/* Four whole numbers, five numbers and the openings of all gauges each. */
-static void give_record (void *context, size_t i, long *count, double *number)
-{
-    const pg_solver *s = context;
-    const pg_stage_record *r = &s->stage.record[i];
-    const double value[5] = { r->share, r->strain, r->external, r->dissipated, r->growth };
-    count[0] = r->done, count[1] = r->reason, count[2] = r->step, count[3] = r->events;
-    memcpy (number, value, sizeof value);
-    if (s->problem->ngauge) memcpy (number + 5, r->gauge, s->problem->ngauge * sizeof *number);
-}
-
-static pg_status take_record (void *context, size_t i, const long *count, const double *number,
-                              const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    const pg_solver *s = context;
-    pg_stage_record *r = &s->stage.record[i];
-    PG_KEEP_BOUND (k, "why a stage ended", count[1], 0, REASONS - 1);
-    r->done = count[0] != 0, r->reason = (int) count[1], r->step = count[2], r->events = count[3];
-    r->why = reasons[r->reason];
-    r->share = number[0], r->strain = number[1], r->external = number[2], r->dissipated = number[3],
-    r->growth = number[4];
-    if (s->problem->ngauge) memcpy (r->gauge, number + 5, s->problem->ngauge * sizeof *number);
-done:
-    return status;
-}
-
 static pg_status keep_place (stage_place *at, long nstage, const char *name, const pg_keeper *k)
 {
-    pg_status status = PG_OK;
-    char part[64];
-    long count[4] = { at->number, at->over, at->first_step, at->first_event };
-    double number[3] = { at->first_growth, at->peak, at->side };
-    strcat (strcpy (part, name), ".counts");
-    PG_TRY (k->counts (k->context, part, 4, count));
-    strcat (strcpy (part, name), ".numbers");
-    PG_TRY (k->numbers (k->context, part, 3, number));
-    PG_KEEP_BOUND (k, "the stage of loading", count[0], 1, nstage);
-    PG_KEEP_BOUND (k, "why a stage ended", count[1], 0, REASONS - 1);
-    at->number = count[0], at->over = (int) count[1], at->first_step = count[2], at->first_event = count[3];
-    at->first_growth = number[0], at->peak = number[1], at->side = number[2];
-done:
-    return status;
+    return pg_keep_fields (k, name, "counts", "numbers", 1, PG_ROWS (
+        PG_KEPT_IN (at->number, 1, nstage, "the stage of loading"),
+        PG_KEPT_IN (at->over, 0, REASONS - 1, "why a stage ended"), PG_KEPT (at->first_step),
+        PG_KEPT (at->first_event), PG_KEPT (at->first_growth), PG_KEPT (at->peak), PG_KEPT (at->side)));
 }
 
 pg_status stages_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     stage_path *p = &s->stage;
+    pg_stage_record *r = p->record;
     size_t n = s->problem->nstage;
     if (!p->now.number) return PG_OK;
     PG_TRY (keep_place (&p->now, (long) n, "stage.now", k));
@@ -351,10 +315,11 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
     if (removes)
         PG_TRY (k->numbers (k->context, "stage.excavated", s->break_loop.system.ndof, p->excavated));
     PG_TRY (k->numbers (k->context, "stage.borne", 1, &s->break_loop.system.balance.borne));
-    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "stage.records",
-                                                .number_name = "stage.record_values", .n = n, .counts = 4,
-                                                .numbers = 5 + s->problem->ngauge, .give = give_record,
-                                                .take = take_record, .context = s }));
+    PG_TRY (pg_keep_fields (k, "stage", "records", "record_values", n, PG_ROWS (
+        PG_EACH (r, done), PG_EACH_IN (r, reason, 0, REASONS - 1, "why a stage ended"), PG_EACH (r, step),
+        PG_EACH (r, events), PG_EACH (r, share), PG_EACH (r, strain), PG_EACH (r, external),
+        PG_EACH (r, dissipated), PG_EACH (r, growth), PG_ITEMS (p->opening, s->problem->ngauge))));
+    for (size_t i = 0; k->reading && i < n; i++) r[i].why = reasons[r[i].reason];
     follow (s);
 done:
     return status;

@@ -4,7 +4,6 @@
  * the last step. */
 #include "solve.h"
 #include <math.h>
-#include <string.h>
 
 pg_tip_values pg_tip_values_of (long id, size_t vertex, const double *x, const pg_tip_field *f, int nfield,
                                 const double *l)
@@ -46,40 +45,15 @@ const pg_tip_values *pg_solver_tips (const pg_solver *s, size_t *n)
     return s->tip;
 }
 
-/* Two whole numbers and ten numbers each, which follow each other. */
-enum { COUNTS = 2, NUMBERS = 10 };
-
-static void give_tip (void *context, size_t i, long *count, double *number)
-{
-    const pg_tip_values *t = &((const pg_solver *) context)->tip[i];
-    count[0] = t->id, count[1] = (long) t->vertex;
-    memcpy (number, t->x, NUMBERS * sizeof *number);
-}
-
-static pg_status take_tip (void *context, size_t i, const long *count, const double *number,
-                           const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    pg_solver *s = context;
-    PG_KEEP_BOUND (k, "the vertex of a front", count[1], 0, (long) s->ntip);
-    s->tip[i].id = count[0], s->tip[i].vertex = (size_t) count[1];
-    memcpy (s->tip[i].x, number, NUMBERS * sizeof *number);
-done:
-    return status;
-}
-
 pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long n = (long) s->ntip;
-    PG_TRY (k->counts (k->context, "solver.tip_count", 1, &n));
-    PG_KEEP_BOUND (k, "the number of tips", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
-    if (k->reading) PG_GROW (s->tip, s->cap_tip, (size_t) n);
-    s->ntip = (size_t) n;
-    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "solver.tips",
-                                                .number_name = "solver.tip_values", .n = s->ntip,
-                                                .counts = COUNTS, .numbers = NUMBERS, .give = give_tip,
-                                                .take = take_tip, .context = s }));
+    PG_KEEP_LENGTH (k, "solver", "tip_count", s->tip, s->ntip, s->cap_tip,
+                    s->problem->first_bond[PG_BOND_SETS], "the number of tips");
+    pg_tip_values *t = s->tip;
+    PG_TRY (pg_keep_fields (k, "solver", "tips", "tip_values", s->ntip, PG_ROWS (
+        PG_EACH (t, id), PG_EACH_IN (t, vertex, 0, s->ntip, "the vertex of a front"), PG_EACH (t, x),
+        PG_EACH (t, J), PG_EACH (t, K), PG_EACH (t, T), PG_EACH (t, uncertainty), PG_EACH (t, utilisation))));
 done:
     return status;
 }

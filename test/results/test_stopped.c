@@ -208,12 +208,12 @@ static void marks_that_cannot_be_are_refused (void **state)
     static const struct { const char *name; size_t at; long to; const char *words;
     } wrong[] = {
         { "none", 0, 0, "" },
-        { "now.counts", 0, -1, "mark 0 of now is -1" },
-        { "now.counts", 6, 1L << 60, "mark 6 of now is" },
+        { "now.counts", 0, -1, "now is -1, not from 0" },
+        { "now.counts", 6, 1L << 60, "now is 1152921504606846976, not from 0" },
         { "now.counts", 0, 1L << 40, "it was changed since" },
         { "now.counts", 5, 1L << 20, "1048576 points of the curve of" },
         { "done.counts", 5, 1L << 20, "1048576 points of the curve of" },
-        { "result.counts", 0, -1, "-1 rounds of a step" },
+        { "result.counts", 0, -1, "rounds of a step is -1" },
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char where[64], path[128];
