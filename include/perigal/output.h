@@ -243,10 +243,8 @@ pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context);
 pg_status pg_checkpoint_commit  (const char *path);
 /* Removes PATH.new, if it is there. */
 void      pg_checkpoint_drop    (const char *path);
-/* The n counts that a checkpoint holds under a name. PG_E_FILE: there is none, or it is not whole. */
-pg_status pg_checkpoint_counts  (const char *path, const char *name, size_t n, long *value);
 /* A checkpoint that stays open, to be read by names in any order: its keeper; how many values it has under a
- * name, 0: none. Its checksum is not compared: pg_checkpoint_counts does so. */
+ * name, 0: none. Its checksum is not compared: pg_checkpoint_read does so. */
 typedef struct pg_checkpoint pg_checkpoint;
 pg_status pg_checkpoint_open   (pg_checkpoint **out, const char *path);
 const pg_keeper *pg_checkpoint_keeper (const pg_checkpoint *checkpoint);

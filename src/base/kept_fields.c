@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Structs in checkpoints, by tables of their fields. A file has no structs, which would also carry the gaps
- * between their fields: each is taken apart into whole numbers and others, and put together again from them. */
+ * between their fields: each is taken apart into whole numbers and others, and put together again. */
 #include "perigal/base.h"
 #include <stdio.h>
 

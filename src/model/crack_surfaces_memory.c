@@ -177,7 +177,8 @@ pg_status surfaces_keep (pg_crack_surfaces *w, long most, const char *name, cons
     pg_status status = PG_OK;
     size_t n = w->cracks.n - w->nfirst, nvertex = w->nvertex, nfront = w->nfront;
     PG_TRY (pg_keep_fields (k, name, "counts", "area", 1, PG_ROWS (
-        PG_KEPT_IN (n, 0, most, "the size of the cracks"), PG_KEPT_IN (nvertex, 0, most, "the size of the cracks"),
+        PG_KEPT_IN (n, 0, most, "the size of the cracks"),
+        PG_KEPT_IN (nvertex, 0, most, "the size of the cracks"),
         PG_KEPT_IN (nfront, 0, most, "the size of the cracks"), PG_KEPT (w->area))));
     if (k->reading) {
         w->cracks.n = w->nfirst, w->nvertex = w->nfront = 0;

@@ -17,15 +17,17 @@
 /* What a checkpoint whose sum is right, but whose pieces are others, must be. */
 #define OTHER_VERSION "another version of the program wrote it, and only that one can continue the run"
 
-/* A checkpoint that is being written (to) or read (from); defining: this visit defines variables and writes
- * nothing yet; sum: the hash so far. */
-typedef struct {
-    const char    *path;
+/* A checkpoint that is being written (to) or read (from, and then reading of the keeper is 1); defining: this
+ * visit defines variables and writes nothing yet; sum: the hash so far. */
+struct pg_checkpoint {
+    char          *path;
     netcdf_writer *to;
     pg_netcdf     *from;
-    int      defining, reading;
-    uint64_t sum;
-} checkpoint;
+    pg_keeper keeper;
+    int       defining;
+    uint64_t  sum;
+};
+typedef struct pg_checkpoint checkpoint;
 
 /* Bytes of one value. */
 static size_t size_of (int type) { return type == PG_NC_BYTE ? 1 : 8; }
@@ -85,7 +87,7 @@ static pg_status keep (checkpoint *c, const char *name, size_t n, int type, void
         define (c, name, n, type);
         goto done;
     }
-    if (c->reading) {
+    if (c->keeper.reading) {
         PG_TRY (find (c, name, n, type, &var));
         PG_TRY (get (c, var, type, 0, n, value));
         goto done;
@@ -97,8 +99,7 @@ done:
     return status;
 }
 
-/* The three functions that a keeper offers, for doubles, counts and bytes. */
-/* The format has a 64-bit integer type; `long` is the same on all systems that this library
+/* The three functions that a keeper offers, for doubles, counts and bytes. The format has a 64-bit integer type; `long` is the same on all systems that this library
  * supports. */
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
 static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
@@ -112,6 +113,10 @@ static pg_status keep_counts (void *c, const char *name, size_t n, long *value)
 static pg_status keep_bytes (void *c, const char *name, size_t n, void *value)
 {
     return keep (c, name, n, PG_NC_BYTE, value);
+}
+static pg_keeper keeper_of (checkpoint *c, int reading)
+{
+    return (pg_keeper) { c, reading, keep_numbers, keep_counts, keep_bytes };
 }
 
 /* Adds a variable of the file to the sum, read in pieces of 64 KiB. */
@@ -140,6 +145,7 @@ static pg_status check_sum (checkpoint *c)
 {
     pg_status status = PG_OK;
     int n = (int) pg_netcdf_variables (c->from), last = pg_netcdf_find (c->from, "checksum");
+    c->sum = PG_FINGERPRINT;
     long found = 0;
     if (last < 0 || last != n - 1)
         PG_FAIL (PG_E_FILE, "%s is no checkpoint, or not complete: it has no checksum", c->path);
@@ -154,36 +160,34 @@ done:
     return status;
 }
 
-/* One visit of everything, which starts the sum anew. When reading, the checksum is compared
- * first; when writing, it becomes the last variable. */
+/* One visit of everything, which starts the sum anew; this becomes the last variable. */
 static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
-    pg_keeper keeper = { c, c->reading, keep_numbers, keep_counts, keep_bytes };
     c->sum = PG_FINGERPRINT;
-    if (c->reading) PG_TRY (check_sum (c));
-    PG_TRY (walk (context, &keeper));
+    PG_TRY (walk (context, &c->keeper));
     long sum = (long) c->sum;
-    if (!c->reading) PG_TRY (keep_counts (c, "checksum", 1, &sum));
+    PG_TRY (keep_counts (c, "checksum", 1, &sum));
 done:
     return status;
 }
 
 /* Writes the whole file and syncs it: first all definitions, then all values, in the order of
  * the format. */
-static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
+static pg_status write_file (char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
-    PG_TRY (netcdf_create (&c->to, c->path, 5));
-    c->defining = 1;
-    PG_TRY (make_walk (c, walk, context));
-    PG_TRY (netcdf_end_header (c->to));
-    c->defining = 0;
-    PG_TRY (make_walk (c, walk, context));
-    PG_TRY (netcdf_finish (&c->to));
-    PG_TRY (pg_file_sync (c->path));
+    checkpoint c = { .path = path, .defining = 1 };
+    c.keeper = keeper_of (&c, 0);
+    PG_TRY (netcdf_create (&c.to, path, 5));
+    PG_TRY (make_walk (&c, walk, context));
+    PG_TRY (netcdf_end_header (c.to));
+    c.defining = 0;
+    PG_TRY (make_walk (&c, walk, context));
+    PG_TRY (netcdf_finish (&c.to));
+    PG_TRY (pg_file_sync (path));
 done:
-    netcdf_abandon (&c->to);
+    netcdf_abandon (&c.to);
     return status;
 }
 
@@ -212,11 +216,9 @@ done:
 pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
-    checkpoint c = { 0 };
     char *fresh = NULL;
     PG_TRY (pg_disk_fresh (&fresh, path));
-    c.path = fresh;
-    status = write_file (&c, walk, context);
+    status = write_file (fresh, walk, context);
     if (status != PG_OK) remove (fresh);
 done:
     pg_free (fresh);
@@ -246,65 +248,51 @@ void pg_checkpoint_drop (const char *path)
     pg_free (fresh);
 }
 
-pg_status pg_checkpoint_counts (const char *path, const char *name, size_t n, long *value)
+pg_status pg_checkpoint_open (pg_checkpoint **out, const char *path)
 {
     pg_status status = PG_OK;
-    checkpoint c = { .path = path, .reading = 1, .sum = PG_FINGERPRINT };
-    PG_TRY (pg_netcdf_open (&c.from, path));
-    PG_TRY (check_sum (&c));
-    PG_TRY (keep_counts (&c, name, n, value));
+    checkpoint *c = NULL;
+    PG_ALLOC (c, 1);
+    PG_ALLOC (c->path, strlen (path) + 1);
+    strcpy (c->path, path);
+    c->keeper = keeper_of (c, 1);
+    PG_TRY (pg_netcdf_open (&c->from, path));
+    *out = c, c = NULL;
 done:
-    pg_netcdf_close (&c.from);
+    pg_checkpoint_close (&c);
     return status;
+}
+
+const pg_keeper *pg_checkpoint_keeper (const pg_checkpoint *c) { return &c->keeper; }
+
+size_t pg_checkpoint_length (const pg_checkpoint *c, const char *name)
+{
+    pg_netcdf_variable about;
+    int var = pg_netcdf_find (c->from, name);
+    if (var < 0) return 0;
+    pg_netcdf_about (c->from, var, &about);
+    return about.ndim == 1 ? about.n : 0;
+}
+
+void pg_checkpoint_close (pg_checkpoint **file)
+{
+    checkpoint *c = *file;
+    if (!c) return;
+    pg_netcdf_close (&c->from);
+    pg_free (c->path);
+    pg_free (c);
+    *file = NULL;
 }
 
 /* The header is checked first, then the checksum, and only then are values handed out. */
 pg_status pg_checkpoint_read (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
-    checkpoint c = { .path = path, .reading = 1 };
-    PG_TRY (pg_netcdf_open (&c.from, path));
-    PG_TRY (make_walk (&c, walk, context));
+    checkpoint *c = NULL;
+    PG_TRY (pg_checkpoint_open (&c, path));
+    PG_TRY (check_sum (c));
+    PG_TRY (walk (context, &c->keeper));
 done:
-    pg_netcdf_close (&c.from);
+    pg_checkpoint_close (&c);
     return status;
-}
-
-struct pg_checkpoint { checkpoint c; char *path; pg_keeper keeper; };
-
-pg_status pg_checkpoint_open (pg_checkpoint **out, const char *path)
-{
-    pg_status status = PG_OK;
-    pg_checkpoint *k = NULL;
-    PG_ALLOC (k, 1);
-    PG_ALLOC (k->path, strlen (path) + 1);
-    strcpy (k->path, path);
-    k->c.path = k->path, k->c.reading = 1;
-    k->keeper = (pg_keeper) { &k->c, 1, keep_numbers, keep_counts, keep_bytes };
-    PG_TRY (pg_netcdf_open (&k->c.from, path));
-    *out = k, k = NULL;
-done:
-    pg_checkpoint_close (&k);
-    return status;
-}
-
-const pg_keeper *pg_checkpoint_keeper (const pg_checkpoint *k) { return &k->keeper; }
-
-size_t pg_checkpoint_length (const pg_checkpoint *k, const char *name)
-{
-    pg_netcdf_variable about;
-    int var = pg_netcdf_find (k->c.from, name);
-    if (var < 0) return 0;
-    pg_netcdf_about (k->c.from, var, &about);
-    return about.ndim == 1 ? about.n : 0;
-}
-
-void pg_checkpoint_close (pg_checkpoint **file)
-{
-    pg_checkpoint *k = *file;
-    if (!k) return;
-    pg_netcdf_close (&k->c.from);
-    pg_free (k->path);
-    pg_free (k);
-    *file = NULL;
 }

@@ -322,14 +322,27 @@ done:
     return status;
 }
 
+/* A pg_keep of the checkpoint's number and of who wrote it. */
+static pg_status read_who (void *context, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    resumed_by *who = context;
+    long count[3], ranks[3];
+    PG_TRY (k->counts (k->context, "result.counts", 3, count));
+    PG_TRY (k->counts (k->context, "ranks", 3, ranks));
+    PG_KEEP_BOUND (k, "the number of ranks", ranks[0], 1, 1L << 24);
+    PG_KEEP_BOUND (k, "a rank", ranks[1], 0, ranks[0] - 1);
+    PG_KEEP_BOUND (k, "whether ranks share the body", ranks[2], 0, 1);
+    *who = (resumed_by) { (double) count[2], (int) ranks[0], (int) ranks[1], (int) ranks[2] };
+done:
+    return status;
+}
+
 resumed_by resumed_who (const char *path)
 {
-    long count[3], ranks[3];
-    if (access (path, F_OK) != 0 || pg_checkpoint_counts (path, "result.counts", 3, count) != PG_OK
-        || pg_checkpoint_counts (path, "ranks", 3, ranks) != PG_OK || ranks[0] < 1 || ranks[0] > 1L << 24
-        || ranks[1] < 0 || ranks[1] >= ranks[0] || ranks[2] < 0 || ranks[2] > 1)
-        return (resumed_by) { .number = -1 };
-    return (resumed_by) { (double) count[2], (int) ranks[0], (int) ranks[1], (int) ranks[2] };
+    resumed_by who = { .number = -1 };
+    if (access (path, F_OK) == 0 && pg_checkpoint_read (path, read_who, &who) != PG_OK) who.number = -1;
+    return who;
 }
 
 /* The number of a checkpoint that this rank wrote beside as many others; -1: it is none. */

@@ -66,7 +66,10 @@ static pg_status keep_entry (const char *name, size_t i, size_t size, char *text
 pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { SKIPS = sizeof r->skipped / sizeof *r->skipped, WARNINGS = sizeof r->warning / sizeof *r->warning };
+    enum {
+        SKIPS = sizeof r->skipped / sizeof *r->skipped,
+        WARNINGS = sizeof r->warning / sizeof *r->warning
+    };
     pg_skip *skip = r->skipped;
 #define COUNT(field) PG_KEPT_IN (r->field, 0, most, "a count of the report")
 #define NUMBER(field) PG_KEPT (r->field)
@@ -279,7 +282,8 @@ pg_status keep_solver_counts (pg_solver *s, const pg_keeper *k)
     return pg_keep_fields (k, "solver", "counts", NULL, 1, PG_ROWS (
         PG_KEPT (s->finished), PG_KEPT (s->warned_overlap), PG_KEPT (s->warned_energy),
         PG_KEPT_IN (s->next_level, 0, s->options.levels + 1, "the next level"),
-        PG_KEPT_IN (s->break_loop.round, 0, most, "the round"), PG_KEPT (s->spared), PG_KEPT (s->evaluations)));
+        PG_KEPT_IN (s->break_loop.round, 0, most, "the round"), PG_KEPT (s->spared),
+        PG_KEPT (s->evaluations)));
 }
 
 /* What the solver object itself carries: where it is among levels and rounds, energies, what it has warned

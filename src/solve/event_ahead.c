@@ -448,9 +448,9 @@ pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
         PG_KEPT (ahead), PG_KEPT_IN (q->nevent, 0, AHEAD_MOST, "the number of events found"),
         PG_KEPT_IN (q->at, 0, AHEAD_MOST, "the next event"),
         PG_KEPT_IN (q->stride, 0, AHEAD_MOST, "the width of a block"),
-        PG_KEPT_IN (q->nbroken, 0, s->problem->first_bond[PG_BOND_SETS], "the bonds found"), PG_KEPT (q->wait),
-        PG_KEPT (q->due), PG_KEPT (known), PG_KEPT (q->found), PG_KEPT (q->taken_back), PG_KEPT (q->cold),
-        PG_KEPT (q->residual))));
+        PG_KEPT_IN (q->nbroken, 0, s->problem->first_bond[PG_BOND_SETS], "the bonds found"),
+        PG_KEPT (q->wait), PG_KEPT (q->due), PG_KEPT (known), PG_KEPT (q->found), PG_KEPT (q->taken_back),
+        PG_KEPT (q->cold), PG_KEPT (q->residual))));
     if (!ahead) {
         if (k->reading) ahead_free (&e->ahead);
         return PG_OK;

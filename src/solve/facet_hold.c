@@ -190,7 +190,8 @@ static pg_status keep_one (break_loop *b, size_t i, const pg_keeper *k)
         PG_ALLOC (h->force, n + 1);
         h->n = n;
     }
-    snprintf (name[0], sizeof name[0], "unknowns.%zu", i), snprintf (name[1], sizeof name[1], "forces.%zu", i);
+    snprintf (name[0], sizeof name[0], "unknowns.%zu", i);
+    snprintf (name[1], sizeof name[1], "forces.%zu", i);
     PG_TRY (pg_keep_fields (k, "facets", name[0], name[1], 1, PG_ROWS (
         PG_ITEMS_IN (h->unknown, n, 0, b->system.ndof - 1, "an unknown that a facet holds"),
         PG_ITEMS (h->force, n))));

@@ -83,7 +83,8 @@ pg_status pg_solver_move (pg_solver *s, pg_state *state, const pg_moved *m)
                                                        : "");
     PG_TRY (solver_start (s, state));
     PG_TRY (keep_solver_counts (s, m->alike));
-    const int within = s->break_loop.round > 0;            /* a step begins again whose middle the run had reached */
+    /* the run had reached the middle of a step, which begins again */
+    const int within = s->break_loop.round > 0;
     s->break_loop.round = 0, s->break_loop.nbroken = 0;
     PG_TRY (take_state (s, state, m, within ? "backup" : "state"));
     PG_TRY (take_report (s, state, m));

@@ -526,7 +526,8 @@ void progress_offer (pg_progress *p, double share, const char *end, int even);
 
 /* ---- checkpoint.c -------------------------------------------------------------------------------------- */
 /* A text in an array of fixed size, ended whatever was read. */
-pg_status keep_state_numbers (pg_state *s, const char *name, const pg_keeper *k);  /* counts, time, factor, work */
+/* Counts, time, load factor and work; where the solver is among levels and rounds. */
+pg_status keep_state_numbers (pg_state *s, const char *name, const pg_keeper *k);
 pg_status keep_solver_counts (pg_solver *s, const pg_keeper *k);
 pg_status keep_report (pg_statistics *r, const pg_keeper *k);
 /* What each of several ranks has of its own points, of the last step made: shares of the sums of all. */
