@@ -259,6 +259,27 @@ typedef struct {
     /* What parts the points; NULL: nothing. Borrowed. */
     const struct pg_between *between;
 } pg_cloud;
+/* A cloud may be a part of the points of a body, with ghosts of those around it; the other parts are with
+ * other ranks, who all make the same calls. 1: the point counts here; ghosts count where they are owned. */
+static inline int pg_cloud_owns (const pg_cloud *c, size_t point) { return pg_owns (c->subdomain, point); }
+/* The number of a point among all points of the body; how many these are. */
+static inline size_t pg_cloud_number (const pg_cloud *c, size_t point)
+{
+    return c->subdomain ? (size_t) c->subdomain->number[point] : point;
+}
+static inline size_t pg_cloud_total (const pg_cloud *c)
+{
+    return c->subdomain ? (size_t) c->subdomain->total : c->n;
+}
+/* Sum, or largest, over all parts of each of n numbers, in place. */
+static inline pg_status pg_cloud_sum (const pg_cloud *c, size_t n, double *value)
+{
+    return c->subdomain ? pg_ranks_sum (n, value) : PG_OK;
+}
+static inline pg_status pg_cloud_most (const pg_cloud *c, size_t n, double *value)
+{
+    return c->subdomain ? pg_ranks_most (n, value) : PG_OK;
+}
 /* Points of the scene. On a lattice (`lattice: nodes` or `cells`): the vertices of the cells whose centre
  * lies in the body, each with an equal share of the volume of its cells, or the centres of these cells;
  * then perturbed reproducibly, but only points with kept cells all around. Or read from `points: FILE`; the

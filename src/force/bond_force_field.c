@@ -415,7 +415,7 @@ static double largest_overlap (bond_force *b, const pg_state *state, const doubl
     double worst = 0;
     pg_parallel (b->threads, b->n, closing_points, &w);
     for (size_t i = 0; i < b->n; i++)
-        if (pg_owns (b->problem->cloud.subdomain, i)) worst = fmax (worst, b->work[i]);
+        if (pg_cloud_owns (&b->problem->cloud, i)) worst = fmax (worst, b->work[i]);
     return worst;
 }
 
@@ -443,13 +443,14 @@ done:
 /* Joins point i with those before it that live bonds hold it to. Most of them lead to its root at once. */
 static void join_before (const bond_force *b, size_t i, int *parent)
 {
-    const pg_subdomain *s = b->problem->cloud.subdomain;
+    const pg_cloud *cloud = &b->problem->cloud;
     const pg_family *f = b->family;
     int root = (int) i;
     for (size_t e = f->start[i]; e < f->start[i + 1] && (size_t) f->node[e] < i; e++) {
         int j = f->node[e];
         if (parent[j] == root || !bond_force_lives (b, e)) continue;
-        if (pg_owns (s, i) || pg_owns (s, (size_t) j)) root = pg_disjoint_join (parent, root, j);
+        if (pg_cloud_owns (cloud, i) || pg_cloud_owns (cloud, (size_t) j))
+            root = pg_disjoint_join (parent, root, j);
     }
 }
 

@@ -332,7 +332,7 @@ pg_status bond_force_omega (const bond_force *b, double *omega)
     bond_force_masses (b, mass);
     pg_parallel (b->threads, b->n, bound_points, &(job) { b, b->work, mass });
     for (size_t i = 0; i < b->n; i++)
-        if (pg_owns (b->problem->cloud.subdomain, i)) top = fmax (top, b->work[i]);
+        if (pg_cloud_owns (&b->problem->cloud, i)) top = fmax (top, b->work[i]);
     *omega = sqrt (top);
 done:
     pg_free (mass);

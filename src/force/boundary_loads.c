@@ -91,16 +91,15 @@ done:
  * for each. Over all ranks that share the body. */
 double boundary_reference (point_boundary *s, double t, double inside)
 {
-    const pg_subdomain *owners = s->problem->cloud.subdomain;
     double sum[2] = { inside, 0 };
     for (size_t k = 0; k < s->nload; k++) {
         double factor = boundary_bring_to (s, &s->load[k], t), square = 0;
         size_t m = (size_t) s->load[k].components;
         for (size_t i = 0; i < s->load[k].npoint * m; i++)
-            if (pg_owns (owners, (size_t) s->load[k].point[i / m]))
+            if (pg_cloud_owns (&s->problem->cloud, (size_t) s->load[k].point[i / m]))
                 square += s->load[k].pattern[i] * s->load[k].pattern[i];
         sum[1] += factor * factor * square;
     }
-    if (owners && pg_ranks_sum (2, sum) != PG_OK) return NAN;
+    if (pg_cloud_sum (&s->problem->cloud, 2, sum) != PG_OK) return NAN;
     return fmax (sqrt (sum[0]), sqrt (sum[1]));
 }

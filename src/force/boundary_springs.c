@@ -59,7 +59,7 @@ double boundary_spring_energy (const point_boundary *s, double t, const double *
     for (size_t i = 0; i < s->nspring; i++) {
         const boundary_spring *q = &s->spring[i];
         double gap = d[q->dof] - boundary_spring_goal (s, q, t);
-        if (pg_owns (s->problem->cloud.subdomain, q->point)) sum += 0.5 * q->stiffness * gap * gap;
+        if (pg_cloud_owns (&s->problem->cloud, q->point)) sum += 0.5 * q->stiffness * gap * gap;
     }
     return sum;
 }

@@ -190,10 +190,10 @@ static pg_status galerkin_share_of (void *self, const double *x, const pg_change
 /* ---- balance ------------------------------------------------------------------------------------------- */
 double galerkin_squared (const galerkin *g, const double *force)
 {
-    const pg_subdomain *owners = g->problem->cloud.subdomain;
     size_t dim = (size_t) g->dim;
     double s = 0;
-    for (size_t i = 0; i < g->n * dim; i++) if (pg_owns (owners, i / dim)) s += force[i] * force[i];
+    for (size_t i = 0; i < g->n * dim; i++)
+        if (pg_cloud_owns (&g->problem->cloud, i / dim)) s += force[i] * force[i];
     return s;
 }
 
@@ -201,7 +201,7 @@ double galerkin_squared (const galerkin *g, const double *force)
 static double largest_of (const galerkin *g, double inside, double external, double reaction)
 {
     double square[3] = { inside, external, reaction };
-    if (g->problem->cloud.subdomain && pg_ranks_sum (3, square) != PG_OK) return NAN;
+    if (pg_cloud_sum (&g->problem->cloud, 3, square) != PG_OK) return NAN;
     return sqrt (fmax (square[0], fmax (square[1], square[2])));
 }
 

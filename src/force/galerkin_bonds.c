@@ -300,11 +300,11 @@ static double largest_overlap (galerkin *g, const pg_state *state, const double 
     int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only */
     galerkin_measure (g, PG_NODES, d);
     for (size_t p = 0; p < r->n; p++) {
-        if (!pg_owns (g->problem->cloud.subdomain, p)) continue;
+        if (!pg_cloud_owns (&g->problem->cloud, p)) continue;
         double limit = 1.5 * pg_problem_spacing (g->problem, PG_NODES, p);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             size_t j = (size_t) r->family.node[e];
-            int counted = j < p && !both && pg_owns (g->problem->cloud.subdomain, j);
+            int counted = j < p && !both && pg_cloud_owns (&g->problem->cloud, j);
             if (state->alive[e] || j == p || counted) continue;
             if (r->grade[p] >= PG_GRADE_SHEPARD || r->grade[j] >= PG_GRADE_SHEPARD) continue;
             double xi[3], rr = 0;
@@ -322,14 +322,13 @@ void galerkin_join (void *self, int *parent)
 {
     const galerkin *g = self;
     const pg_rows *r = &g->rows[g->bulk];
-    const pg_subdomain *s = g->problem->cloud.subdomain;
     pg_disjoint_start (parent, g->n);
     for (size_t p = 0; p < r->n; p++) {
         int first = -1, own = 0;
         size_t offset = pg_rows_offset (r, p);
         if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && !own; e++)
-            own = pg_owns (s, (size_t) r->family.node[e]);
+            own = pg_cloud_owns (&g->problem->cloud, (size_t) r->family.node[e]);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && own; e++) {
             if (r->w[e + offset] == 0 && r->family.node[e] != r->own[p]) continue;
             if (first < 0) first = r->family.node[e];
@@ -353,7 +352,7 @@ static pg_status count_flat (const galerkin *g, size_t *count, double *at)
     }
     PG_TRY (pg_ranks_share (flat > 0 ? 3 : 0, first, &n, &all));
     if (n) memcpy (at, all, sizeof first);
-    if (g->problem->cloud.subdomain) PG_TRY (pg_ranks_sum (1, &flat));
+    PG_TRY (pg_cloud_sum (&g->problem->cloud, 1, &flat));
     *count = (size_t) flat;
 done:
     pg_free (all);

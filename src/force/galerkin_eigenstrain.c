@@ -76,7 +76,7 @@ static double size_of_forces (const galerkin *g)
         double f = g->problem->rows[g->bulk].weight[p] * s[0] / pg_problem_spacing (g->problem, g->bulk, p);
         sum += f * f;
     }
-    if (g->problem->cloud.subdomain && pg_ranks_sum (1, &sum) != PG_OK) return NAN;
+    if (pg_cloud_sum (&g->problem->cloud, 1, &sum) != PG_OK) return NAN;
     return sqrt (sum);
 }
 

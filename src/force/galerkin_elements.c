@@ -466,7 +466,7 @@ static pg_status width_of_supports (const pg_problem *p, double *width)
                  / pow (c->volume[i] / c->thickness, 1.0 / c->dim);
     pg_sort (all, c->n, sizeof *all, pg_ascending_numbers);
     *width = all[c->n / 4];
-    if (c->subdomain) PG_TRY (pg_ranks_most (1, width));   /* one polynomial for all ranks */
+    PG_TRY (pg_cloud_most (c, 1, width));   /* one polynomial for all ranks */
 done:
     pg_free (all);
     return status;

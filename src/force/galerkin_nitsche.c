@@ -131,8 +131,7 @@ long galerkin_penalty_of (const galerkin *g, size_t node)
 /* Does the load act on all points of the body? */
 static int is_everywhere (const galerkin *g, const pg_load *load)
 {
-    const pg_subdomain *s = g->problem->cloud.subdomain;
-    return load->kind == PG_BODY_FORCE && pg_set_points (load->set) == (s ? (size_t) s->total : g->n);
+    return load->kind == PG_BODY_FORCE && pg_set_points (load->set) == pg_cloud_total (&g->problem->cloud);
 }
 
 /* Does a load or a prescribed value act at a point of a set, so that its share of each node follows the shape

@@ -129,7 +129,7 @@ done:
 /* ---- the worst bonds ----------------------------------------------------------------------------------- */
 double galerkin_largest (const galerkin *g, double mine)
 {
-    if (g->problem->cloud.subdomain && pg_ranks_most (1, &mine) != PG_OK) return NAN;
+    if (pg_cloud_most (&g->problem->cloud, 1, &mine) != PG_OK) return NAN;
     return mine;
 }
 

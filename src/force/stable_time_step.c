@@ -17,7 +17,7 @@ pg_status pg_force_bound (const pg_force_type *force, void *self, const pg_cloud
         *from = "bound by row sums";
         PG_TRY (force->motion.row_sums (self, workspace));
         for (size_t i = 0; i < ndof; i++)
-            if (pg_owns (cloud->subdomain, i / (ndof / cloud->n))) top = fmax (top, workspace[i] / mass[i]);
+            if (pg_cloud_owns (cloud, i / (ndof / cloud->n))) top = fmax (top, workspace[i] / mass[i]);
         *omega = sqrt (top);
     }
 done:

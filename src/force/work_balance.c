@@ -25,7 +25,7 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
 {
     pg_status status = PG_OK;
     size_t at = s->nsupport, count = s->nsupport;
-    const pg_subdomain *owners = s->problem->cloud.subdomain;
+    const pg_cloud *cloud = &s->problem->cloud;
     for (size_t k = 0; k < s->nload; k++) count += s->load[k].npoint * (size_t) s->load[k].components;
     count += s->nspring;
     if (!out->force) {
@@ -38,7 +38,7 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
     boundary_goals (s, t, out->displacement);
     for (size_t k = 0; k < s->nsupport; k++) {
         const boundary_support *q = &s->support[k];
-        out->force[k] = pg_owns (owners, q->point) ? -residual[q->dof] : 0;
+        out->force[k] = pg_cloud_owns (cloud, q->point) ? -residual[q->dof] : 0;
         if (q->load >= 0) add_reaction (s, out->reaction, q->load, q->component, q->point, out->force[k]);
     }
     for (size_t k = 0; k < s->nload; k++) {
@@ -46,7 +46,7 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
         double factor = boundary_bring_to (s, l, t);
         for (size_t i = 0; i < l->npoint; i++)
             for (size_t c = 0; c < (size_t) l->components; c++, at++) {
-                out->force[at] = pg_owns (owners, (size_t) l->point[i])
+                out->force[at] = pg_cloud_owns (cloud, (size_t) l->point[i])
                                      ? factor * l->pattern[i * (size_t) l->components + c] : 0;
                 out->displacement[at] = d[(size_t) l->point[i] * (size_t) s->stride + (size_t) l->first + c];
                 add_reaction (s, out->reaction, l->load, (int) c, (size_t) l->point[i], out->force[at]);
@@ -55,7 +55,8 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
     for (size_t k = 0; k < s->nspring; k++, at++) {
         const boundary_spring *q = &s->spring[k];
         out->displacement[at] = boundary_spring_goal (s, q, t);
-        out->force[at] = pg_owns (owners, q->point) ? -q->stiffness * (d[q->dof] - out->displacement[at]) : 0;
+        double gap = d[q->dof] - out->displacement[at];
+        out->force[at] = pg_cloud_owns (cloud, q->point) ? -q->stiffness * gap : 0;
         add_reaction (s, out->reaction, q->load, q->component, q->point, out->force[at]);
     }
 done:

@@ -23,7 +23,7 @@ pg_status pg_worst_bonds (const pg_problem *p, const pg_state *state, const doub
                 over->bond[over->n++] = i;
             }
     }
-    if (p->cloud.subdomain) PG_TRY (pg_ranks_most (1, &most));
+    PG_TRY (pg_cloud_most (&p->cloud, 1, &most));
     *top = most;
     if (!(*top > 1)) over->n = 0;
 done:

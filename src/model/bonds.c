@@ -133,7 +133,7 @@ static pg_status note_wide (pg_problem *p, looking *l)
     const pg_rows *r = l->rows;
     double wide = 0;
     for (size_t q = 0; r->wide && q < r->n && wide == 0; q++) wide = r->wide[q] > 1 && is_beside (l, q);
-    if (p->cloud.subdomain) PG_TRY (pg_ranks_sum (1, &wide));
+    PG_TRY (pg_cloud_sum (&p->cloud, 1, &wide));
     if (wide > 0) p->wide_at_cracks = 1;
 done:
     return status;
@@ -417,13 +417,13 @@ static pg_status check_company (const pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     const pg_family *f = &p->rows[PG_NODES].family;
     for (size_t i = 0; i < f->n && status == PG_OK; i++) {
-        if (f->start[i + 1] > f->start[i] || !pg_owns (p->cloud.subdomain, i)) continue;
+        if (f->start[i + 1] > f->start[i] || !pg_cloud_owns (&p->cloud, i)) continue;
         const double *x = p->cloud.x + i * (size_t) p->dim;
         pg_scene_fault (scene, "method.horizon",
                         "point %zu at (%.6g, %.6g, %.6g) m sees no other point within its horizon, %.6g m: "
                         "use a larger horizon",
-                        (p->cloud.subdomain ? (size_t) p->cloud.subdomain->number[i] : i) + 1, x[0],
-                        p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0,
+                        pg_cloud_number (&p->cloud, i) + 1, x[0], p->dim > 1 ? x[1] : 0,
+                        p->dim > 2 ? x[2] : 0,
                         p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
         status = pg_scene_verdict (scene);
     }
@@ -441,7 +441,7 @@ static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
     for (size_t i = 0; i < p->cloud.n; i++) {
         const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, NULL),
                                               p->cloud.x + i * (size_t) p->dim, pg_cloud_same (&p->cloud));
-        eroded += on && pg_owns (p->cloud.subdomain, i);
+        eroded += on && pg_cloud_owns (&p->cloud, i);
         if (!first) first = on;
     }
     const pg_crack *list = pg_state_cracks (p, NULL)->crack;
@@ -479,7 +479,7 @@ static pg_status note_parted (pg_problem *p)
     double n[PG_BOND_SETS] = { 0 };
     int alone = !p->method->shape_functions;
     for (int s = 0; s < PG_BOND_SETS; s++) n[s] = (double) p->rows[s].parted;
-    if (p->cloud.subdomain) PG_TRY (pg_ranks_sum (PG_BOND_SETS, n));
+    PG_TRY (pg_cloud_sum (&p->cloud, PG_BOND_SETS, n));
     double all = alone ? n[PG_NODES] / 2 : n[PG_NODES] / 2 + n[PG_POINTS] + n[PG_FACETS];
     if (all > 0)
         pg_problem_note (p,
@@ -497,7 +497,7 @@ static pg_status note_volume (pg_problem *p, const pg_scene *scene)
     const pg_cloud *c = &p->cloud;
     double total = 0, box = c->thickness;
     if (!pg_scene_given (scene, "points")) return PG_OK;
-    for (size_t i = 0; i < c->n; i++) total += pg_owns (c->subdomain, i) ? c->volume[i] : 0;
+    for (size_t i = 0; i < c->n; i++) total += pg_cloud_owns (c, i) ? c->volume[i] : 0;
     PG_TRY (pg_ranks_sum (1, &total));
     for (int k = 0; k < c->dim; k++) box *= c->high[k] - c->low[k] + c->h;
     pg_problem_note (p, "%svolume of all points %.6g m^3, %.3g of the box around them%s",

@@ -74,9 +74,9 @@ static pg_status find_reference (const pg_problem *p, pg_variation *v, int k)
     evaluation all = { p, -1, v->of[k], value };
     pg_parallel (p->threads, p->cloud.n, evaluate, &all);
     for (size_t i = 0; i < p->cloud.n; i++)
-        if (value[i] > 0 && isfinite (value[i]) && pg_owns (p->cloud.subdomain, i))
+        if (value[i] > 0 && isfinite (value[i]) && pg_cloud_owns (&p->cloud, i))
             sum[0] += value[i], sum[1]++;
-    PG_TRY (pg_ranks_sum (2, sum));
+    PG_TRY (pg_cloud_sum (&p->cloud, 2, sum));
     v->reference[k] = sum[1] > 0 ? sum[0] / sum[1] : 1;
 done:
     pg_free (value);
@@ -312,13 +312,13 @@ static pg_status summarise (pg_problem *p, const entry *all)
             pg_variation *v = &p->vary[m];
             double sum[2] = { 0, 0 }, ends[2] = { -INFINITY, -INFINITY };
             for (size_t i = 0; counts (p, m, k) && i < p->cloud.n; i++) {
-                if (all[i].block != (int) m || !pg_owns (p->cloud.subdomain, i)) continue;
+                if (all[i].block != (int) m || !pg_cloud_owns (&p->cloud, i)) continue;
                 ends[0] = fmax (ends[0], -all[i].value[k]);
                 ends[1] = fmax (ends[1], all[i].value[k]);
                 sum[0] += all[i].value[k], sum[1]++;
             }
-            PG_TRY (pg_ranks_sum (2, sum));
-            PG_TRY (pg_ranks_most (2, ends));
+            PG_TRY (pg_cloud_sum (&p->cloud, 2, sum));
+            PG_TRY (pg_cloud_most (&p->cloud, 2, ends));
             v->least[k] = -ends[0], v->most[k] = ends[1];
             v->mean[k] = sum[1] > 0 ? sum[0] / sum[1] : NAN;
         }

@@ -39,7 +39,7 @@ static pg_status centre_of (const pg_problem *p, const pg_set *set, int on_facet
     memset (centre, 0, 3 * sizeof *centre);
     for (size_t i = 0; i < n; i++) {
         size_t item = (size_t) (on_facets ? set->facet[i] : set->point[i]);
-        if (!(on_facets ? pg_problem_owns_facet (p, item) : pg_owns (p->cloud.subdomain, item))) continue;
+        if (!(on_facets ? pg_problem_owns_facet (p, item) : pg_cloud_owns (&p->cloud, item))) continue;
         double weight = on_facets ? p->cells.area[item] : p->cloud.volume[item];
         const double *x = (on_facets ? p->cells.facet_centre : p->cloud.x) + item * dim;
         for (size_t k = 0; k < dim; k++) centre[k] += weight * x[k];
@@ -295,15 +295,15 @@ static pg_status list_near (place *a)
     double most[2] = { c->h, -INFINITY }, *all = NULL;
     for (size_t i = 0; c->size && i < c->n; i++) most[0] = fmax (most[0], c->size[i]);
     for (size_t i = 0; i < c->n; i++)
-        if (pg_owns (c->subdomain, i)) most[1] = fmax (most[1], -square_to (a, c->x + i * dim));
+        if (pg_cloud_owns (c, i)) most[1] = fmax (most[1], -square_to (a, c->x + i * dim));
     PG_TRY (pg_ranks_most (2, most));
     a->nearest = sqrt (-most[1]);
     for (size_t i = 0; i < c->n; i++) {
         double reach = farthest * most[0];
-        if (!pg_owns (c->subdomain, i) || square_to (a, c->x + i * dim) > reach * reach) continue;
+        if (!pg_cloud_owns (c, i) || square_to (a, c->x + i * dim) > reach * reach) continue;
         PG_GROW (mine, cap, n + 1);
         mine[n] = (near_point) { .size = c->size ? c->size[i] : c->h,
-                                 .number = c->subdomain ? (double) c->subdomain->number[i] : (double) i };
+                                 .number = (double) pg_cloud_number (c, i) };
         memcpy (mine[n++].x, c->x + i * dim, dim * sizeof *c->x);
     }
     PG_TRY (pg_ranks_share (NEAR * n, (const double *) mine, &numbers, &all));

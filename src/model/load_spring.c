@@ -19,13 +19,12 @@ static pg_status share_stiffness (const pg_problem *p, pg_load *load)
     pg_status status = PG_OK;
     double sum = 0;
     size_t n = load->set->npoint;
-    const pg_subdomain *subdomain = p->cloud.subdomain;
     if (!load->own) PG_ALLOC (load->share, n);
     for (size_t i = 0; i < n; i++) {
         load->share[i] = load->own ? fmax (load->share[i], 0) : p->cloud.volume[load->set->point[i]];
-        sum += pg_owns (subdomain, (size_t) load->set->point[i]) ? load->share[i] : 0;
+        sum += pg_cloud_owns (&p->cloud, (size_t) load->set->point[i]) ? load->share[i] : 0;
     }
-    PG_TRY (pg_ranks_sum (1, &sum));
+    PG_TRY (pg_cloud_sum (&p->cloud, 1, &sum));
     for (size_t i = 0; i < n; i++) load->share[i] /= sum;
 done:
     return status;

@@ -285,7 +285,6 @@ static int on_a_crack (const pg_problem *p, size_t i)
 static void join_points (const pg_problem *p, int *parent)
 {
     const pg_family *f = &p->rows[PG_NODES].family;
-    const pg_subdomain *s = p->cloud.subdomain;
     size_t n = p->cloud.n;
     pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++) {
@@ -293,7 +292,7 @@ static void join_points (const pg_problem *p, int *parent)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
             if (j >= i || parent[j] == root || pg_disjoint_root (parent, (int) j) == root) continue;
-            if (!pg_owns (s, i) && !pg_owns (s, j)) continue;
+            if (!pg_cloud_owns (&p->cloud, i) && !pg_cloud_owns (&p->cloud, j)) continue;
             if (!is_cut (p, i, j)) root = pg_disjoint_join (parent, root, (int) j);
         }
     }
@@ -313,13 +312,12 @@ static int by_label (const void *a, const void *b)
 /* The parts that this rank has points of; room for one a point. */
 static size_t list_parts (const pg_problem *p, int *parent, const double *label, part *out)
 {
-    const pg_subdomain *s = p->cloud.subdomain;
     size_t dim = (size_t) p->dim, n = 0;
     for (size_t i = 0; i < p->cloud.n; i++) {
         part *mine = &out[pg_disjoint_root (parent, (int) i)];
-        if (!pg_owns (s, i)) continue;
+        if (!pg_cloud_owns (&p->cloud, i)) continue;
         if (mine->count++ > 0) continue;
-        mine->label = label[i], mine->number = s ? (double) s->number[i] : (double) i;
+        mine->label = label[i], mine->number = (double) pg_cloud_number (&p->cloud, i);
         memcpy (mine->x, p->cloud.x + i * dim, dim * sizeof *mine->x);
         mine->on = on_a_crack (p, i);
     }

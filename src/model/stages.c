@@ -201,14 +201,14 @@ static void read_until (const pg_problem *p, pg_stage *stage, const pg_scene *sc
 }
 
 /* Do the ascending points of two sets have one in common, on any rank? All of them ask. */
-static int share_points (const pg_set *a, const pg_set *b)
+static int share_points (const pg_problem *p, const pg_set *a, const pg_set *b)
 {
     double any = 0;
     for (size_t i = 0, k = 0; i < a->npoint && k < b->npoint && any == 0;)
         if (a->point[i] == b->point[k]) any = 1;
         else if (a->point[i] < b->point[k]) i++;
         else k++;
-    return pg_ranks_most (1, &any) == PG_OK && any > 0;
+    return pg_cloud_most (&p->cloud, 1, &any) == PG_OK && any > 0;
 }
 
 /* Loads on points and supports have to be elsewhere; what acts by shape functions goes with its place. */
@@ -218,7 +218,7 @@ static void check_loads (const pg_problem *p, const pg_set *remove, const pg_sce
         const pg_load *load = &p->load[i];
         int on_points = load->kind != PG_TRACTION && load->kind != PG_PRESSURE && load->kind != PG_BODY_FORCE;
         if (load->cracks || (!on_points && p->method->shape_functions)) continue;
-        if (share_points (load->set, remove))
+        if (share_points (p, load->set, remove))
             pg_scene_fault (scene, path,
                             "shares points with the load or support %s, which has to be elsewhere",
                             load->name);
@@ -233,7 +233,7 @@ static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *
     if (!pg_scene_given (scene, "%s", path)) return;
     stage->remove = pg_sets_named (&p->sets, scene, path, pg_scene_text (scene, "%s", path));
     if (!stage->remove) return;
-    size_t all = p->cloud.subdomain ? (size_t) p->cloud.subdomain->total : p->cloud.n;
+    size_t all = pg_cloud_total (&p->cloud);
     if (pg_set_points (stage->remove) == 0) pg_scene_fault (scene, path, "this set holds no point");
     else if (pg_set_points (stage->remove) == all) pg_scene_fault (scene, path, "nothing would be left");
     if (pg_scene_given (scene, "stages[%zu].until", k))
@@ -247,7 +247,7 @@ static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *
         pg_scene_fault (scene, path, "does not go with cracks of the scene so far");
     check_loads (p, stage->remove, scene, path);
     for (size_t i = 0; i < k; i++)
-        if (p->stage[i].remove && share_points (p->stage[i].remove, stage->remove))
+        if (p->stage[i].remove && share_points (p, p->stage[i].remove, stage->remove))
             pg_scene_fault (scene, path, "shares points with what stage %s removes", p->stage[i].name);
 }
 

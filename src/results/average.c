@@ -140,7 +140,7 @@ static double mean_of (const result_average *a, const pg_problem *p, const doubl
 {
     double sum = 0;
     for (size_t i = 0; i < a->set->npoint; i++)
-        if (pg_owns (p->cloud.subdomain, (size_t) a->set->point[i]))
+        if (pg_cloud_owns (&p->cloud, (size_t) a->set->point[i]))
             sum += value[(size_t) a->set->point[i] * (size_t) components + (size_t) a->component];
     return sum / (double) pg_set_points (a->set);
 }

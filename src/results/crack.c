@@ -82,7 +82,7 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
         widest = first[i + 1] - first[i] > widest ? first[i + 1] - first[i] : widest;
     PG_ALLOC (start, widest + 1);
     for (size_t i = 0; i < p->rows[set].n; i++) {
-        if (set == PG_NODES && !pg_owns (p->cloud.subdomain, i)) continue;
+        if (set == PG_NODES && !pg_cloud_owns (&p->cloud, i)) continue;
         if (!memchr (state->alive + p->first_bond[set] + first[i], 0, first[i + 1] - first[i])) continue;
         pg_bonds_cut_at (p, set, i, start);
         if (points) area += area_of_point (p, i, start, state->alive);

@@ -11,7 +11,10 @@
 enum { STEP, TIME, FACTOR, UNJUDGED, FIRST_GAUGE };
 
 /* A message that is lost shows where the next one fails. */
-static double most_of_ranks (double value) { return pg_ranks_most (1, &value) == PG_OK ? value : NAN; }
+static double most_of_all (const pg_problem *p, double value)
+{
+    return pg_cloud_most (&p->cloud, 1, &value) == PG_OK ? value : NAN;
+}
 
 /* How strongly a load acts along the axis k: the largest size of its pattern over its points; 1 where place
  * and time do not separate, or for the axis nearest to the first normal of a pressure; 0: not at all. */
@@ -25,13 +28,13 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
             const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
             size = fmax (size, fabs (pg_load_pattern (load, k, p->dim, x)));
         }
-        return most_of_ranks (size);
+        return most_of_all (p, size);
     }
     if (load->kind != PG_PRESSURE || load->cracks) return 0;
     size = load->set->nfacet > 0;
     const double *normal = p->cells.normal + (size > 0 ? (size_t) load->set->facet[0] : 0) * (size_t) p->dim;
     for (int c = 0; size > 0 && c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) size = 0;
-    return most_of_ranks (size);
+    return most_of_all (p, size);
 }
 
 /* How far a support moves along the axis k at most: at t = 1, with stages of loading at the end of each. A
@@ -45,7 +48,7 @@ static double farthest (const pg_problem *p, const pg_load *load, int k)
             const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
             size = fmax (size, fabs (pg_load_value (load, k, p->dim, x, end)));
         }
-    return most_of_ranks (size);
+    return most_of_all (p, size);
 }
 
 /* How far a platen moves along the axis k at most, m: at t = 1, with stages of loading at the end of each. */
@@ -155,7 +158,7 @@ static int from_rest (const pg_problem *p)
                                    p->cloud.x + (size_t) p->load[l].set->point[i] * (size_t) p->dim, 0)
                     != 0)
                     moves = 1;
-    return !(most_of_ranks (moves) > 0);
+    return !(most_of_all (p, moves) > 0);
 }
 
 /* 1 with event stepping. */
@@ -211,7 +214,8 @@ static int is_conjugate (const pg_problem *p, const pg_load *load, int k)
             for (int c = 0; c < p->dim; c++) if (c != k) others = fmax (others, fabs (n[c]));
         }
     } else range_of (p, load, k, &least, &most, &others);
-    least = -most_of_ranks (-least), most = most_of_ranks (most), others = most_of_ranks (others);
+    least = -most_of_all (p, -least), most = most_of_all (p, most);
+    others = most_of_all (p, others);
     double size = fmax (fabs (least), fabs (most));
     return most - least <= 1e-6 * size && others <= 1e-6 * size;
 }

@@ -194,7 +194,7 @@ static pg_status prescribed (const pg_problem *p, const pg_load *load, int k, do
     size_t dim = (size_t) p->dim, n = facets ? set->nfacet : set->npoint;
     for (size_t i = 0; i < n; i++) {
         size_t at = (size_t) (facets ? set->facet[i] : set->point[i]);
-        if (!(facets ? pg_problem_owns_facet (p, at) : pg_owns (p->cloud.subdomain, at))) continue;
+        if (!(facets ? pg_problem_owns_facet (p, at) : pg_cloud_owns (&p->cloud, at))) continue;
         const double *x = (facets ? p->cells.facet_centre : p->cloud.x) + dim * at;
         double w = facets ? p->cells.area[at] : 1;
         sum[0] += w * pg_load_value (load, k, p->dim, x, t), sum[1] += w;
@@ -213,7 +213,7 @@ static double mean_of (const pg_problem *p, const pg_load *load, const double *u
     double sum = 0, n = (double) pg_set_points (set);
     for (size_t i = 0; i < set->npoint; i++) {
         double share = load->share ? load->share[i] * n : 1;
-        if (!pg_owns (p->cloud.subdomain, (size_t) set->point[i])) continue;
+        if (!pg_cloud_owns (&p->cloud, (size_t) set->point[i])) continue;
         sum += share * u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
     }
     return n > 0 ? sum / n : 0;

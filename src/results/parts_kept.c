@@ -15,7 +15,7 @@ enum { OF_BOND = 2, SETS = 4 };
 _Static_assert ((int) PG_BOND_SETS <= (int) SETS, "a bond set has a number below SETS");
 
 /* ---- writing ------------------------------------------------------------------------------------------- */
-static int owned (const pg_problem *p, size_t i) { return pg_owns (p->cloud.subdomain, i); }
+static int owned (const pg_problem *p, size_t i) { return pg_cloud_owns (&p->cloud, i); }
 
 /* The box of the points that this process owns, or holds, m. */
 static void box_of (const pg_problem *p, int held, double *box)

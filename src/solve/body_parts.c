@@ -37,7 +37,7 @@ void body_part_shift (const pg_system *s, const body_part *part, const double *x
 
 void body_part_place (const pg_problem *p, const body_part *part, char *text, size_t size)
 {
-    double all = p->cloud.subdomain ? (double) p->cloud.subdomain->total : (double) p->cloud.n;
+    double all = (double) pg_cloud_total (&p->cloud);
     size_t used = (size_t) snprintf (text, size, "%zu of its %.0f points, around (%.6g", part->points, all,
                                      part->middle[0]);
     for (int k = 1; k < p->dim && used < size; k++)
@@ -82,8 +82,8 @@ void body_part_way (const pg_problem *p, const body_part *part, const double *m,
 static pg_status number_points (body_parts *out, const pg_system *s)
 {
     pg_status status = PG_OK;
-    const pg_subdomain *owners = s->problem->cloud.subdomain;
-    size_t n = s->problem->cloud.n, own = 0;
+    const pg_cloud *cloud = &s->problem->cloud;
+    size_t n = cloud->n, own = 0;
     int *parent = NULL;
     double *label = NULL, *mine = NULL, *all = NULL;
     PG_ALLOC (out->of, n);
@@ -91,9 +91,9 @@ static pg_status number_points (body_parts *out, const pg_system *s)
     PG_ALLOC (label, n);
     PG_ALLOC (mine, n);
     s->force->join (s->self, parent);
-    PG_TRY (pg_subdomain_label (owners, n, 1, parent, label));
+    PG_TRY (pg_subdomain_label (cloud->subdomain, n, 1, parent, label));
     for (size_t i = 0; i < n; i++)
-        if (pg_owns (owners, i) && label[i] == (owners ? (double) owners->number[i] : (double) i))
+        if (pg_cloud_owns (cloud, i) && label[i] == (double) pg_cloud_number (cloud, i))
             mine[own++] = label[i];
     PG_TRY (pg_ranks_share (own, mine, &out->n, &all));
     pg_sort (all, out->n, sizeof *all, pg_ascending_numbers);
@@ -117,7 +117,7 @@ static pg_status measure (body_parts *out, const pg_problem *p)
     PG_ALLOC (most, out->n);
     for (size_t i = 0; i < p->cloud.n; i++) {
         double *to = sum + 4 * (size_t) out->of[i];
-        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        if (!pg_cloud_owns (&p->cloud, i)) continue;
         to[3]++;
         for (size_t k = 0; k < dim; k++) to[k] += p->cloud.x[i * dim + k];
     }
@@ -129,7 +129,7 @@ static pg_status measure (body_parts *out, const pg_problem *p)
     for (size_t i = 0; i < p->cloud.n; i++) {
         const double *middle = out->part[out->of[i]].middle, *x = p->cloud.x + i * dim;
         double square = 0;
-        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        if (!pg_cloud_owns (&p->cloud, i)) continue;
         for (size_t k = 0; k < dim; k++) square += (x[k] - middle[k]) * (x[k] - middle[k]);
         most[out->of[i]] = fmax (most[out->of[i]], sqrt (square));
     }
@@ -211,7 +211,7 @@ static pg_status square_motions (const body_parts *out, const pg_problem *p, dou
     size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
     for (size_t i = 0; i < p->cloud.n; i++) {
         double u[MOST][3], *sum = moved + SQUARES * (size_t) out->of[i];
-        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        if (!pg_cloud_owns (&p->cloud, i)) continue;
         for (size_t a = 0; a < n; a++) {
             rigid_motion m = { 0 };
             m[which[a]] = 1;
@@ -265,7 +265,7 @@ static void resist_all (const body_parts *out, const pg_system *s, const pg_load
     }
     for (size_t i = 0; i < load->set->npoint; i++) {
         size_t at = (size_t) load->set->point[i], r = (size_t) out->of[at];
-        if (pg_owns (p->cloud.subdomain, at))
+        if (pg_cloud_owns (&p->cloud, at))
             resist (&out->part[r], p->dim, load, p->cloud.x + at * (size_t) p->dim, A + SQUARES * r);
     }
 }

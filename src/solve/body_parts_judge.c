@@ -87,7 +87,7 @@ static pg_status add_up (along_motions *w, const double *force)
         const double *f = force + i * components;
         double square = 0, spin = 0;
         for (size_t k = 0; k < components; k++) square += f[k] * f[k];
-        if (square == 0 || !pg_owns (p->cloud.subdomain, i)) continue;
+        if (square == 0 || !pg_cloud_owns (&p->cloud, i)) continue;
         w->size[r] += sqrt (square);
         for (size_t j = 0; j < part->n; j++) {
             double u[MOST];
@@ -98,9 +98,9 @@ static pg_status add_up (along_motions *w, const double *force)
             spin += f[k] * part->axis[k - dim];
         w->spin[r] += fabs (spin);
     }
-    PG_TRY (pg_ranks_sum (MOST * w->parts.n, w->work));
-    PG_TRY (pg_ranks_sum (w->parts.n, w->size));
-    PG_TRY (pg_ranks_sum (w->parts.n, w->spin));
+    PG_TRY (pg_cloud_sum (&p->cloud, MOST * w->parts.n, w->work));
+    PG_TRY (pg_cloud_sum (&p->cloud, w->parts.n, w->size));
+    PG_TRY (pg_cloud_sum (&p->cloud, w->parts.n, w->spin));
     for (size_t r = 0; r < w->parts.n; r++) w->all += w->size[r];
 done:
     pg_free (turned);
@@ -195,7 +195,7 @@ static pg_status say_loads (words *out, const along_motions *w, size_t r)
         for (size_t i = 0; i < load->set->npoint && acts[l] == 0; i++)
             acts[l] = (size_t) w->parts.of[load->set->point[i]] == r;
     }
-    PG_TRY (pg_ranks_most (p->nload, acts));
+    PG_TRY (pg_cloud_most (&p->cloud, p->nload, acts));
     for (size_t l = 0; l < p->nload; l++)
         if (acts[l] > 0 && count++ < 4)
             say (out, "%s%s", count == 1 ? "; it is loaded by " : ", ", p->load[l].name);
@@ -231,7 +231,7 @@ static pg_status refuse (const along_motions *w, size_t r)
     const pg_problem *p = w->s->problem;
     const body_part *part = &w->parts.part[r];
     words where = { .used = 0 }, how = { .used = 0 }, by = { .used = 0 };
-    double all = p->cloud.subdomain ? (double) p->cloud.subdomain->total : (double) p->cloud.n;
+    double all = (double) pg_cloud_total (&p->cloud);
     char place[BODY_PART_WORDS];
     rigid_motion m;
     if (!(worst_motion (w, r, m) > w->s->options->tolerance)) return refuse_spin (w, r);
@@ -339,10 +339,10 @@ pg_status body_parts_centre (pg_system *s, double *d)
     PG_ALLOC (sum, NORMAL * parts->n);
     for (size_t i = 0; i < p->cloud.n; i++) {
         size_t r = (size_t) parts->of[i];
-        if (!parts->part[r].n || !pg_owns (p->cloud.subdomain, i)) continue;
+        if (!parts->part[r].n || !pg_cloud_owns (&p->cloud, i)) continue;
         add_normal (s, &parts->part[r], p->cloud.x + i * dim, d + i * components, sum + NORMAL * r);
     }
-    PG_TRY (pg_ranks_sum (NORMAL * parts->n, sum));
+    PG_TRY (pg_cloud_sum (&p->cloud, NORMAL * parts->n, sum));
     for (size_t r = 0; r < parts->n; r++) {
         double *A = sum + NORMAL * r, *amount = A + MOST * MOST;
         size_t n = parts->part[r].n;
@@ -374,14 +374,14 @@ pg_status body_parts_check (pg_system *s, double t, const double *d, int loads)
     for (int k = 0; k < p->dim; k++) reach[k] = high[k] - low[k];
     for (size_t i = 0; i < p->cloud.n; i++) {
         double square = 0;
-        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        if (!pg_cloud_owns (&p->cloud, i)) continue;
         for (size_t k = 0; k < (size_t) p->dim; k++) square += d[i * components + k] * d[i * components + k];
         if (!(square <= reach[3])) reach[3] = square, at = i;
     }
     far = sqrt (reach[3]);
     if (!isfinite (far)) far = INFINITY;
     reach[3] = far;
-    PG_TRY (pg_ranks_most (4, reach));
+    PG_TRY (pg_cloud_most (&p->cloud, 4, reach));
     for (int k = 0; k < p->dim; k++) length = fmax (length, reach[k]);
     if (!(length > 0) || reach[3] <= length) goto done;
     if (loads) PG_TRY (judge (&w, s, t));

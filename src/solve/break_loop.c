@@ -300,7 +300,7 @@ pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double
     PG_TRY (s->force->field (s->self, state, d, "damage", &components, &unit, b->damage));
     b->nearest = 0;
     for (size_t i = 0; components == 1 && i < set->npoint; i++)
-        if (pg_owns (s->problem->cloud.subdomain, (size_t) set->point[i]))
+        if (pg_cloud_owns (&s->problem->cloud, (size_t) set->point[i]))
             b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
     PG_TRY (pg_ranks_most (1, &b->nearest));
     if (!b->looked) b->nearest0 = b->nearest, b->looked = 1;

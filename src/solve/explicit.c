@@ -16,7 +16,6 @@ static pg_status find_prescribed (pg_solver *s, const pg_sparse *T, size_t ndof)
     pg_status status = PG_OK;
     motion *m = motion_of (s);
     const char *kind = s->type->name;
-    const pg_subdomain *owners = s->problem->cloud.subdomain;
     size_t components = (size_t) s->break_loop.system.components;
     unsigned char *is_free = NULL;
     PG_ALLOC (is_free, ndof);
@@ -30,7 +29,7 @@ static pg_status find_prescribed (pg_solver *s, const pg_sparse *T, size_t ndof)
         is_free[T->row[T->start[j]]] = 1;
     }
     /* ghosts follow their owners, whatever is prescribed there */
-    for (size_t i = 0; i < ndof; i++) is_free[i] |= !pg_owns (owners, i / components);
+    for (size_t i = 0; i < ndof; i++) is_free[i] |= !pg_cloud_owns (&s->problem->cloud, i / components);
     for (size_t i = 0; i < ndof; i++) m->nprescribed += !is_free[i];
     PG_ALLOC (m->prescribed, m->nprescribed);
     size_t n = 0;

@@ -92,11 +92,11 @@ static double rounding_of (const pg_system *s, const dynamics *dyn, const double
     double sum = 0, least = INFINITY, size[PAIRS + 1] = { 0 };
     for (size_t i = 0; i < s->ndof; i++) {
         double part = (dyn->k * s->direct.diagonal0[i] + dyn->m * s->mass[i]) * d[i];
-        if (pg_owns (s->problem->cloud.subdomain, i / (size_t) s->components)) sum += part * part;
+        if (pg_cloud_owns (&s->problem->cloud, i / (size_t) s->components)) sum += part * part;
     }
     size[0] = sum;
     for (int k = 0; k < n; k++) size[k + 1] = pg_dot (s->ndof, pair_y (s, at[k]), pair_y (s, at[k]));
-    if (system_is_shared (s) && pg_ranks_sum (PAIRS + 1, size) != PG_OK) return NAN;
+    if (pg_cloud_sum (&s->problem->cloud, PAIRS + 1, size) != PG_OK) return NAN;
     sum = size[0];
     for (int k = 0; k < n; k++) least = fmin (least, size[k + 1]);
     return 2.2e-16 * sqrt (sum / least);
@@ -121,8 +121,8 @@ pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
         for (int j = 0; j <= i; j++)
             G[i][j] = G[j][i] = pg_dot (s->ndof, pair_x (s, at[i]), pair_y (s, at[j]));
     }
-    if (system_is_shared (s)) PG_TRY (pg_ranks_sum (PAIRS, b));
-    if (system_is_shared (s)) PG_TRY (pg_ranks_sum (PAIRS * PAIRS, &G[0][0]));
+    PG_TRY (pg_cloud_sum (&s->problem->cloud, PAIRS, b));
+    PG_TRY (pg_cloud_sum (&s->problem->cloud, PAIRS * PAIRS, &G[0][0]));
     for (int i = 0; i < n; i++) most += G[i][i] > 0;
     if (most < n) n = 0;                               /* a step without any correction */
     double noise = n > 0 ? fmax (least_pivot, above_rounding * rounding_of (s, dyn, d, n, at)) : 0;

@@ -42,7 +42,7 @@ static void add_forces (const pg_system *s, const double *f, sums *out)
     size_t dim = (size_t) c->dim, stride = (size_t) s->components;
     for (size_t i = 0; i < c->n; i++) {
         double x[3] = { 0 }, F[3] = { 0 };
-        if (!pg_owns (c->subdomain, i)) continue;
+        if (!pg_cloud_owns (c, i)) continue;
         for (size_t k = 0; k < dim; k++) x[k] = c->x[i * dim + k], F[k] = f[i * stride + k];
         for (int k = 0; k < 3; k++) {
             int next = (k + 1) % 3, last = (k + 2) % 3;
@@ -62,12 +62,12 @@ static double rounding (const pg_system *s, const double *d)
     double sum = 0;
     for (size_t i = 0; i < p->cloud.n; i++) {
         double u = 0, h = pg_problem_spacing (p, PG_NODES, i);
-        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        if (!pg_cloud_owns (&p->cloud, i)) continue;
         for (size_t k = 0; k < dim; k++) u = fmax (u, fabs (d[i * (size_t) s->components + k]));
         double f = pg_problem_law (p, PG_NODES, i)->modulus * u * p->cloud.volume[i] / (h * h);
         sum += f * f;
     }
-    if (p->cloud.subdomain && pg_ranks_sum (1, &sum) != PG_OK) return NAN;
+    if (pg_cloud_sum (&p->cloud, 1, &sum) != PG_OK) return NAN;
     return 50 * DBL_EPSILON * sqrt (sum);
 }
 
@@ -85,7 +85,7 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     for (int k = 0; k < p->dim; k++) square += pow (p->cloud.high[k] - p->cloud.low[k], 2);
     add_loads (p, w, &all);
     if (f) add_forces (s, f, &all);
-    if (p->cloud.subdomain && pg_ranks_sum (7, (double *) &all) != PG_OK) return;
+    if (pg_cloud_sum (&p->cloud, 7, (double *) &all) != PG_OK) return;
     all.length = sqrt (square);
     double size = all.size + rounding (s, d) / BALANCED;
     if (!(size > 0)) return;

@@ -43,7 +43,7 @@ static pg_status limit_stages (pg_solver *s)
     PG_TRY (s->break_loop.system.force->loads (s->break_loop.system.self, 1, m->P));
     for (size_t i = 0; i < s->break_loop.system.ndof; i++)
         if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
-    PG_TRY (pg_ranks_most (1, &most));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &most));
     double needed = ceil (most * x->dt * x->dt / (2 * s0 * s->problem->cloud.h) * (1 - 1e-12));
     if (needed > 1e9)
         PG_TRY (options_fault (&s->options, "solver.stages",

@@ -37,10 +37,10 @@ double relaxation_least_damping (const pg_solver *s, const pg_state *state)
     sum[0] = stiff;
     for (size_t i = 0; i < sys->ndof; i++) {
         double *of = sum + 1 + 3 * (i % components);
-        if (!pg_owns (s->problem->cloud.subdomain, i / components)) continue;
+        if (!pg_cloud_owns (&s->problem->cloud, i / components)) continue;
         of[0] += mass[i], of[1] += mass[i] * d[i], of[2] += mass[i] * d[i] * d[i];
     }
-    if (system_is_shared (sys) && pg_ranks_sum (1 + 3 * components, sum) != PG_OK) return NAN;
+    if (pg_cloud_sum (&s->problem->cloud, 1 + 3 * components, sum) != PG_OK) return NAN;
     for (size_t c = 0; c < components; c++) {
         const double *of = sum + 1 + 3 * c;
         if (of[0] > 0) heavy += of[2] - of[1] * of[1] / of[0];

@@ -58,12 +58,12 @@ void system_multiply (const pg_system *s, const double *x, double *y)
  * (without zeros): the geometric mean. */
 static double mean_of_diagonal (pg_system *s, double most)
 {
-    const pg_subdomain *part = s->problem->cloud.subdomain;
     double sum = 0, number = 0;
     int logarithms = isinf (most);
     for (size_t j = 0; j < s->ndof; j++) {
         double k = s->direct.diagonal0[j];
-        if (!pg_owns (part, j / (size_t) s->components) || k > most || (logarithms && !(k > 0))) continue;
+        if (!pg_cloud_owns (&s->problem->cloud, j / (size_t) s->components) || k > most) continue;
+        if (logarithms && !(k > 0)) continue;
         sum += logarithms ? log (k) : k, number++;
     }
     sum = system_sum (s, sum), number = system_sum (s, number);

@@ -54,11 +54,10 @@ static double angle_of (int dim, const double *H)
 static double largest_turn (const pg_problem *p, const pg_state *state, size_t stride)
 {
     enum { SAMPLE = 200 };
-    const pg_subdomain *part = p->cloud.subdomain;
-    int64_t every = (part ? part->total : (int64_t) p->cloud.n) / SAMPLE + 1;
+    size_t every = pg_cloud_total (&p->cloud) / SAMPLE + 1;
     double most = 0, H[9];
     for (size_t i = 0; i < p->cloud.n; i++) {
-        if (!pg_owns (part, i) || (part ? part->number[i] : (int64_t) i) % every) continue;
+        if (!pg_cloud_owns (&p->cloud, i) || pg_cloud_number (&p->cloud, i) % every) continue;
         if (gradient (p, state, stride, i, H)) most = fmax (most, angle_of (p->dim, H));
     }
     return most;

@@ -100,8 +100,7 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
 static void doubt_all (pg_statistics *report, const pg_problem *p)
 {
     unsigned held = 0;
-    const pg_subdomain *s = p->cloud.subdomain;
-    size_t all = s ? (size_t) s->total : p->cloud.n;
+    size_t all = pg_cloud_total (&p->cloud);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || pg_load_rotates (load) || load->essential == PG_ESSENTIAL_NITSCHE
@@ -138,7 +137,7 @@ static double depth_of (const pg_problem *p, const pg_set *set, double *along)
         sum[0] += 1, sum[1] += depth;
         for (size_t k = 0; k < dim; k++) sum[2 + k] += fabs (n[k]);
     }
-    if (p->cloud.subdomain && pg_ranks_sum (5, sum) != PG_OK) sum[0] = 0;
+    if (pg_cloud_sum (&p->cloud, 5, sum) != PG_OK) sum[0] = 0;
     for (size_t k = 0; k < 3; k++) along[k] = sum[0] > 0 ? sum[2 + k] / sum[0] : 0;
     return sum[0] > 0 ? sum[1] / sum[0] : 0;
 }
@@ -238,8 +237,7 @@ static void doubt_clamps (pg_statistics *report, const pg_problem *p)
 /* Nitsche's method integrates over facets; of the whole body that is meant: its surface. */
 static void doubt_inner (pg_statistics *report, const pg_problem *p)
 {
-    const pg_subdomain *s = p->cloud.subdomain;
-    size_t all = s ? (size_t) s->total : p->cloud.n;
+    size_t all = pg_cloud_total (&p->cloud);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !pg_set_inner (load->set)

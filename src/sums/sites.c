@@ -40,7 +40,7 @@ static pg_status coordinates (const pg_cloud *cloud, int k, size_t *n, double **
     size_t m = 0, bytes;
     PG_ALLOC (mine, cloud->n);
     for (size_t i = 0; i < cloud->n; i++)
-        if (pg_owns (cloud->subdomain, i)) mine[m++] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
+        if (pg_cloud_owns (cloud, i)) mine[m++] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
     PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &all));
     *x = all, *n = bytes / sizeof **x;
     if (*n) pg_sort (*x, *n, sizeof **x, pg_ascending_numbers);
@@ -125,7 +125,7 @@ static pg_status any_rank (const pg_cloud *cloud, int *yes)
 {
     pg_status status = PG_OK;
     double any = *yes;
-    if (cloud->subdomain) PG_TRY (pg_ranks_most (1, &any));
+    PG_TRY (pg_cloud_most (cloud, 1, &any));
     *yes = any > 0;
 done:
     return status;

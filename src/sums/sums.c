@@ -127,11 +127,11 @@ pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volu
     size_t m = 0, bytes = 0;
     *out = 0;
     for (size_t i = 0; i < cloud->n; i++)
-        if (pg_owns (cloud->subdomain, i)) most = fmax (most, volume[i]);
+        if (pg_cloud_owns (cloud, i)) most = fmax (most, volume[i]);
     PG_TRY (pg_ranks_most (1, &most));
     PG_ALLOC (mine, cloud->n);
     for (size_t i = 0; i < cloud->n; i++)
-        if (pg_owns (cloud->subdomain, i) && volume[i] >= whole_family * most) mine[m++] = value[i];
+        if (pg_cloud_owns (cloud, i) && volume[i] >= whole_family * most) mine[m++] = value[i];
     PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &collected));
     all = collected, m = bytes / sizeof *all;
     if (m) {

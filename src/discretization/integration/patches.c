@@ -86,7 +86,7 @@ static pg_status measure_units (builder *b)
             if (b->size[u] > 0)
                 end[0] = fmax (end[0], -b->centre[u * dim + k]),
                 end[1] = fmax (end[1], b->centre[u * dim + k]);
-        if (b->s->cloud->subdomain) PG_TRY (pg_ranks_most (2, end));
+        PG_TRY (pg_cloud_most (b->s->cloud, 2, end));
         b->extent[k] = end[1] + end[0] + b->s->cloud->h;
     }
 done:
@@ -130,7 +130,7 @@ static pg_status bin_units (builder *b)
         for (int k = 0; k < b->dim; k++)
             end[k] = fmax (end[k], -(double) at[k]), end[3 + k] = fmax (end[3 + k], (double) at[k]);
     }
-    if (b->s->cloud->subdomain) PG_TRY (pg_ranks_most (6, end));
+    PG_TRY (pg_cloud_most (b->s->cloud, 6, end));
     b->groups = 1;
     for (int k = 0; k < b->dim; k++) {
         low[k] = -(long) end[k], high[k] = (long) end[3 + k];

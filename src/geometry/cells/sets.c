@@ -70,9 +70,9 @@ static pg_status add_one (builder *b, const char *name, int side)
     s->by_faces = b->faces || b->by_faces;
     if (!b->faces) PG_TRY (gather_inner (s, m));
     double all[3] = { 0, (double) s->nfacet, 0 };
-    for (size_t i = 0; i < s->npoint; i++) all[0] += pg_owns (m->cloud->subdomain, (size_t) s->point[i]);
-    for (size_t i = 0; i < s->ninner; i++) all[2] += pg_owns (m->cloud->subdomain, (size_t) s->inner[i]);
-    PG_TRY (pg_ranks_sum (3, all));
+    for (size_t i = 0; i < s->npoint; i++) all[0] += pg_cloud_owns (m->cloud, (size_t) s->point[i]);
+    for (size_t i = 0; i < s->ninner; i++) all[2] += pg_cloud_owns (m->cloud, (size_t) s->inner[i]);
+    PG_TRY (pg_cloud_sum (m->cloud, 3, all));
     s->all_points = (size_t) all[0], s->all_facets = (size_t) all[1], s->all_inner = (size_t) all[2];
 done:
     return status;
@@ -426,7 +426,7 @@ static pg_status add_named (builder *b, const char *name)
     if (where) PG_TRY (keep_where (b, name));
     double any = marked (b->marks.point, b->marks.cloud->n)
                  || marked (b->marks.facet, b->marks.cells->nfacet);
-    PG_TRY (pg_ranks_most (1, &any));
+    PG_TRY (pg_cloud_most (b->marks.cloud, 1, &any));
     if (known && !(any > 0))
         pg_scene_fault (s, at, "the set is empty: no point and no boundary facet meets its conditions");
     PG_TRY (add_set (b, name));

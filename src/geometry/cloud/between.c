@@ -380,7 +380,7 @@ static pg_status look_inward (pg_between *b, const pg_mesh_body *part)
     PG_ALLOC (sum, m->nnode * 4);
     /* the point at a node, from 1; 0: held by other ranks */
     PG_ALLOC (held, m->nnode);
-    for (size_t i = 0; i < c->n; i++) held[c->subdomain ? (size_t) c->subdomain->number[i] : i] = (int) i + 1;
+    for (size_t i = 0; i < c->n; i++) held[pg_cloud_number (c, i)] = (int) i + 1;
     for (size_t e = 0; e < m->n; e++) {
         double centre[3] = { 0 }, corners = pg_element_types[m->kind[e]].corners;
         const int *node = m->node + m->start[e];
