@@ -99,8 +99,8 @@ done:
     return status;
 }
 
-/* The three functions that a keeper offers, for doubles, counts and bytes. The format has a 64-bit integer type; `long` is the same on all systems that this library
- * supports. */
+/* The three functions that a keeper offers, for doubles, counts and bytes. The format has a 64-bit integer
+ * type; `long` is the same on all systems that this library supports. */
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
 static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
 {

@@ -78,7 +78,7 @@ pg_status explicit_create (pg_solver *s)
     PG_ALLOC (m->sum, m->nblock * SUMS);
     PG_ALLOC (m->inverse, sys->ndof);
     double bonds = (double) s->problem->first_bond[PG_BOND_SETS];
-    PG_TRY (pg_ranks_most (1, &bonds));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &bonds));
     m->between = (long) fmin (1000, fmax (1, 4e7 / fmax (bonds, 1)));
 done:
     return status;
@@ -189,7 +189,7 @@ static int follows (const pg_solver *s)
  * the whole body, or where stages are held. */
 static int row_is_shared (const pg_solver *s)
 {
-    return s->problem->cloud.subdomain && !(s->options.flags & PG_SOLVER_STAGED);
+    return system_is_shared (&s->break_loop.system) && !(s->options.flags & PG_SOLVER_STAGED);
 }
 
 pg_status explicit_room (motion *m, size_t steps)
@@ -250,7 +250,7 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
                                     reference ? reference : &unused));
     }
     if (own && row_is_shared (s)) PG_TRY (note_break (s));
-    else if (b->changes.n && !s->problem->cloud.subdomain) state->events++, s->report.events++;
+    else if (b->changes.n && !system_is_shared (sys)) state->events++, s->report.events++;
 press:
     if (sys->contact) contact_push (sys, state->d, sys->balance.residual, follows (s));
 done:
@@ -387,7 +387,6 @@ pg_status explicit_moved (pg_solver *s, pg_state *state, const pg_moved *moved, 
     pg_status status = PG_OK;
     motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
-    const pg_subdomain *part = s->problem->cloud.subdomain;
     size_t components = (size_t) sys->components;
     double share[5], alike[5];
     if (m->by_work_balance || m->contact)
@@ -403,8 +402,8 @@ pg_status explicit_moved (pg_solver *s, pg_state *state, const pg_moved *moved, 
     for (size_t k = 0; k < m->nprescribed; k++) m->push[k] = m->push0[k] =
         sys->balance.full[m->prescribed[k]];
     m->fresh = 0, m->bad = 0;
-    pg_subdomain_clear_ghosts (part, components, state->v);
-    pg_subdomain_clear_ghosts (part, components, state->a);
+    system_clear_ghosts (sys, state->v);
+    system_clear_ghosts (sys, state->a);
 done:
     return status;
 }

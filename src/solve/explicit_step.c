@@ -179,9 +179,9 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
         for (size_t k = 0; k < m->nprescribed; k++) state->d[m->prescribed[k]] = m->next[k];
         total[SUM_BAD] += lane_not_finite (m->next, 0, m->nprescribed);
         if (m->contact) m->contact->way = furthest (s);
-        if (s->problem->cloud.subdomain) {             /* all ranks end together, when the row does */
+        if (system_is_shared (sys)) {                  /* all ranks end together, when the row does */
             m->bad += total[SUM_BAD] != 0;
-            PG_TRY (pg_subdomain_exchange (s->problem->cloud.subdomain, (size_t) sys->components, state->d));
+            PG_TRY (system_exchange (sys, state->d));
         } else if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
     }
 done:
@@ -339,8 +339,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
     motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass, kinetic = 0;
-    const pg_subdomain *subdomain = s->problem->cloud.subdomain;
-    pg_subdomain_clear_ghosts (subdomain, (size_t) sys->components, state->v);
+    system_clear_ghosts (sys, state->v);
     PG_TRY (explicit_follow (s, 0, 0, dt));
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
@@ -348,7 +347,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
         m->before[k] = m->goal[k] - dt * state->v[i];
         state->v[i] = 0;
     }
-    PG_TRY (pg_subdomain_exchange (subdomain, (size_t) sys->components, state->d));
+    PG_TRY (system_exchange (sys, state->d));
     PG_TRY (arrive (s, state, 0));
     m->resist = 0;
     for (size_t i = 0; i < sys->ndof; i++) {
@@ -391,7 +390,7 @@ static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
      * does a stable step just below the limit, which the body had before anything broke. */
     double sum[4] = { s->report.energy_kinetic, s->report.energy_strain, s->break_loop.work,
                       (double) state->broken };
-    PG_TRY (pg_ranks_sum (4, sum));
+    PG_TRY (pg_cloud_sum (&s->problem->cloud, 4, sum));
     double stored = sum[1] + (sum[3] > 0 ? fmax (0, sum[0]) : sum[0]);
     m->most = fmax (m->most, fabs (sum[2]));
     if ((s->problem->nload == 0 || s->break_loop.system.force->work) && stored > 10 * m->most)
@@ -415,10 +414,10 @@ static pg_status share_row (pg_solver *s, pg_state *state, long n)
     motion *m = motion_of (s);
     size_t steps = (size_t) (n - state->iterations) + 1;
     double any[2] = { m->bad, 0 };
-    if (!s->problem->cloud.subdomain) return PG_OK;
+    if (!system_is_shared (&s->break_loop.system)) return PG_OK;
     PG_TRY (explicit_room (m, steps));
-    PG_TRY (pg_ranks_most (steps, m->broke));
-    PG_TRY (pg_ranks_most (2, any));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, steps, m->broke));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, 2, any));
     for (size_t k = 0; k < steps; k++) state->events += m->broke[k] > 0, s->report.events += m->broke[k] > 0;
     memset (m->broke, 0, m->nbroke * sizeof *m->broke);
     m->bad = 0;

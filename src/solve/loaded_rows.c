@@ -97,7 +97,7 @@ pg_status doubt_loaded_rows (pg_solver *s)
     for (size_t l = 0; l < p->nload; l++)
         any += p->load[l].kind == PG_TRACTION || p->load[l].kind == PG_PRESSURE;
     if (!any || s->options.event || p->method->shape_functions || !pg_criterion_of_bonds (p->criterion)
-        || p->criterion->type->needs != PG_NEEDS_STRETCH || p->cloud.subdomain)
+        || p->criterion->type->needs != PG_NEEDS_STRETCH || system_is_shared (sys))
         return PG_OK;
     PG_ALLOC (w.load, sys->ndof);
     PG_ALLOC (w.hold, sys->ndof);

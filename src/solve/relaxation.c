@@ -124,7 +124,7 @@ static pg_status add_up (const pg_solver *s, double *total)
     explicit_total (s, total);
     total[SQUARE_P] = m->P ? lane_dot (m->P, m->P, 0, sys->ndof) : 0;
     total[SQUARE_PUSH] = lane_dot (m->push, m->push, 0, m->nprescribed);
-    if (system_is_shared (sys)) PG_TRY (pg_ranks_sum (ALL_SUMS, total));
+    PG_TRY (pg_cloud_sum (&s->problem->cloud, ALL_SUMS, total));
 done:
     return status;
 }
@@ -539,14 +539,12 @@ done:
 pg_status relaxation_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
 {
     pg_status status = PG_OK;
-    const pg_subdomain *part = s->problem->cloud.subdomain;
     struct relaxation *x = motion_of (s)->relaxation;
-    size_t components = (size_t) s->break_loop.system.components;
     PG_TRY (keep_numbers (x, within ? "start" : "numbers", moved->alike));
     x->armed = x->pending = x->broke = 0, x->resting = state->iterations == 0, x->read = 1;
     motion_of (s)->fresh = 0;
-    pg_subdomain_clear_ghosts (part, components, state->v);
-    pg_subdomain_clear_ghosts (part, components, state->a);
+    system_clear_ghosts (&s->break_loop.system, state->v);
+    system_clear_ghosts (&s->break_loop.system, state->a);
     if (state->step > 0) PG_TRY (moved_balance (&s->break_loop, state->factor, state->d, 1));
 done:
     return status;

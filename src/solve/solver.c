@@ -256,7 +256,7 @@ static pg_status check_numbers (pg_solver *s)
     const pg_statistics *r = &s->report;
     if (s->options.flags & PG_SOLVER_EXPLICIT) return PG_OK;
     double wrong = !isfinite (r->energy_strain + r->energy_kinetic + s->break_loop.work);
-    PG_TRY (pg_ranks_most (1, &wrong));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &wrong));
     if (wrong > 0)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "energies of the state are no finite numbers (strain %g J, motion %g J, work of the loads "
@@ -348,8 +348,8 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;
     for (size_t i = 0; i < s->break_loop.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
-    if (pg_ranks_most (1, &top) != PG_OK) top = INFINITY;              /* then nothing is compared with it */
-    return top;
+    /* a message that is lost: then nothing is compared with it */
+    return pg_cloud_most (&s->problem->cloud, 1, &top) == PG_OK ? top : INFINITY;
 }
 
 /* Work that was spared so often: the time saved is that of so many, `made` of which took the seconds of a
@@ -482,7 +482,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             pg_last_error ());
     if (s->break_loop.growth) tell_blind (s), tell_alone (s);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
-    if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
+    s->report.overlap_max = system_most (sys, s->report.overlap_max);
     report_skips (s);
     report_sums (s);
     warn_at_end (s, state);
@@ -500,8 +500,8 @@ pg_status pg_solver_share_report (pg_solver *s)
     pg_statistics *r = &s->report;
     double sum[] = { r->energy_strain, r->energy_kinetic, r->energy_external, r->energy_damping,
                      r->energy_dissipated, (double) r->broken };
-    if (!s->problem->cloud.subdomain || s->shared) return PG_OK;
-    PG_TRY (pg_ranks_sum (sizeof sum / sizeof *sum, sum));
+    if (!system_is_shared (&s->break_loop.system) || s->shared) return PG_OK;
+    PG_TRY (pg_cloud_sum (&s->problem->cloud, sizeof sum / sizeof *sum, sum));
     r->energy_strain = sum[0], r->energy_kinetic = sum[1], r->energy_external = sum[2];
     r->energy_damping = sum[3], r->energy_dissipated = sum[4], r->broken = (long) sum[5];
     s->shared = 1;

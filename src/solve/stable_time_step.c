@@ -32,13 +32,13 @@ static pg_status find_bound (pg_solver *s)
                             sys->balance.full,
                             &m->omega, &m->from));
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
-    PG_TRY (pg_ranks_most (1, &m->omega));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &m->omega));
     /* closed faces stand in for bonds that are among those of the bound */
     m->omega *= sqrt (contact_stiffer (sys));
     if (!isfinite (m->omega))
         PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
     double whole = with_contact (s, m->omega);         /* each rank knows the contact of its own points */
-    PG_TRY (pg_ranks_most (1, &whole));
+    PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &whole));
     m->stable = whole > 0 ? (exact ? 0.99 : 1) * 2 / whole : INFINITY;
 done:
     return status;
@@ -52,7 +52,7 @@ static pg_status check_dt (pg_solver *s)
     const pg_system *sys = &s->break_loop.system;
     double omega;
     if (s->options.dt <= m->stable) goto done;
-    if (pg_ranks_now ())
+    if (system_is_shared (sys))
         PG_TRY (options_fault (&s->options, "solver.dt",
                               "%.6g s is too large: steps up to %.4g s are stable for certain, and ranks do "
                               "not measure how much longer they may be",
