@@ -52,7 +52,7 @@ static pg_status check_dt (pg_solver *s)
     const pg_system *sys = &s->break_loop.system;
     double omega;
     if (s->options.dt <= m->stable) goto done;
-    if (system_is_shared (sys))
+    if (pg_ranks_now ())
         PG_TRY (options_fault (&s->options, "solver.dt",
                               "%.6g s is too large: steps up to %.4g s are stable for certain, and ranks do "
                               "not measure how much longer they may be",
