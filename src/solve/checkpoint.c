@@ -136,11 +136,13 @@ static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t
                                     int reactions, const pg_keeper *k)
 {
     pg_status status = PG_OK;
+    char part[64];
     long npair = l->force != NULL ? (long) l->npair : -1, reacts = l->reaction != NULL;
+    strcat (strcpy (part, name), ".counts");
     PG_TRY (pg_keep_fields (k, name, "counts", NULL, 1, PG_ROWS (PG_KEPT (npair), PG_KEPT (reacts))));
-    PG_KEEP_BOUND (k, name, npair, npair < 0 ? -1 : pairs, npair < 0 ? -1 : pairs);
+    PG_KEEP_BOUND (k, part, npair, npair < 0 ? -1 : pairs, npair < 0 ? -1 : pairs);
     if (npair < 0) goto done;
-    PG_KEEP_BOUND (k, name, reacts, reactions, 1);
+    PG_KEEP_BOUND (k, part, reacts, reactions, 1);
     if (k->reading) {
         pg_work_balance_clear (l);
         l->npair = (size_t) npair;
