@@ -143,7 +143,8 @@ static pg_status keep_front (pg_front *f, const char *name, size_t i, size_t nve
 {
     pg_status status = PG_OK;
     char places[40], meets[40], rim[40];
-    snprintf (places, sizeof places, "front.%zu.places", i), snprintf (meets, sizeof meets, "front.%zu.meets", i);
+    snprintf (places, sizeof places, "front.%zu.places", i);
+    snprintf (meets, sizeof meets, "front.%zu.meets", i);
     snprintf (rim, sizeof rim, "front.%zu.rim", i);
     PG_TRY (pg_front_reserve (f, f->n));
     PG_GROW (f->rim, f->rim_capacity, f->nrim);
