@@ -32,7 +32,10 @@ int facet_branches (const break_loop *b, const pg_state *state, size_t i)
     if (!b->system.options->branching || c->type->path (c, &n) || isnan (f->near)) return 0;
     facet_judge (b, state, i, 1, NULL, &slides);
     if (f->closed || slides) return 0;                 /* it opens, or it does not branch */
-    return r->steady <= 0.5 && f->wide >= least_ring * f->h && state->paths->tip[i].grown >= least_way * f->h;
+    /* the ring may end at a kink and the way may be as many facets: lengths that differ by rounding alone */
+    double equal = pg_cloud_same (&b->system.problem->cloud);
+    return r->steady <= 0.5 && f->wide > least_ring * f->h - equal
+           && state->paths->tip[i].grown > least_way * f->h - equal;
 }
 
 /* A facet of length l from x at an angle; 0: the material takes none there. */

@@ -139,9 +139,10 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
         PG_ALLOC (borne, b->system.ndof);
         PG_TRY (facet_faces_bear (b, state, &faces, borne));
     }
-    double zone = facet_zone (b) * length;
+    /* a ring that ends at a kink is as many facets wide, so that the two may be equal */
+    double zone = facet_zone (b) * length, equal = pg_cloud_same (&b->system.problem->cloud);
     const facet_hold what = { .tip = c->tip, .length = zone, .energy = c->energy,
-                              .alone = g->field[i].wide >= zone };
+                              .alone = g->field[i].wide > zone - equal };
     PG_TRY (facet_hold_begin (b, t, d, &what, borne));
     facet_doubt_cut (b, c, t, g->hold[g->nhold - 1].drop);
     if (!(r->shown > 0)) r->taken = r->shown = facet_zone (b) * c->energy;

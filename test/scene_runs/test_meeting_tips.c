@@ -39,7 +39,7 @@ static void cracks_meet_or_hook (void **state)
     (void) state;
     for (int s = 0; s < 2; s++)
         for (int k = longer () ? 0 : s; k < (longer () ? 2 : s + 1); k++) {
-            run r = plate (solvers[s], k ? 0.01 : 0, "");
+            run r = plate (solvers[s], k ? 0.011 : 0, "");
             while (!pg_solver_done (r.solver, r.state) && r.state->paths->tip[0].open)
                 advance (&r), both_alike (&r);
             const pg_tip end = r.state->paths->tip[0];
