@@ -228,7 +228,7 @@ fresh:               ## make demo and make test on a bare Debian in a folder (ro
 compilers: packages  ## gcc -O0, gcc -O3, clang, warnings being errors; the short tests with each
 	$(Q).ci/compilers "$(or $(T),$(PORTABLE))" $(JOBS)
 
-lint:                ## the house rules of doc/architecture.md; make lint WHY=--why names every offence against those not met yet
+lint:                ## the house rules of doc/testing.md; make lint WHY=--why names every offence against those not met yet
 	$(Q).ci/lint $(WHY) $(ORDER)
 	$(Q)out=$$(.ci/mutate --list) || { echo "$$out"; exit 1; }
 

@@ -12,7 +12,7 @@ report "every link leads to a file" "$(for page in "${pages[@]}"; do
 report "doc/input.md is what the program prints (make doc)" "$("$perigal" help --manual | diff doc/input.md - | head -20)"
 report "files named by doc/method.md exist" "$(grep -oE '`([a-z_]+/)+[a-z0-9_]+\.[ch]`' doc/method.md | tr -d '\`' | sort -u |
     while read -r f; do [ -e "src/$f" ] || [ -e "$f" ] || echo "$f"; done)"
-report "files named by doc/notation.md, accuracy.md and architecture.md exist" "$(cat doc/notation.md doc/accuracy*.md doc/architecture.md |
+report "files named by doc/notation.md, accuracy.md, architecture.md and testing.md exist" "$(cat doc/notation.md doc/accuracy*.md doc/architecture.md doc/testing.md |
     grep -oE '`([a-z_]+/)+[a-z0-9_]+\.[ch]`' | tr -d '\`' | sort -u |
     while read -r f; do [ -e "src/$f" ] || [ -e "$f" ] || echo "$f"; done)"
 report "functions named by doc/method.md exist" "$(grep -oE '`([a-z_]+/)+[a-z0-9_]+\.c` (`[a-zA-Z_]+`(, )?)+' doc/method.md | while read -r line; do
