@@ -4,7 +4,7 @@
  * separator of s nodes with b boundary nodes around its part fills s^2/2 + s b entries and costs s^3/3 + s^2
  * b + s b^2 operations (per node; dofs: times dim^2, dim^3). With width = 0.93 times the radius of the ball
  * of as many nodes as one is coupled to, this is within 20 % of METIS for disks, cubes and plates of 10^3 to
- * 10^5 nodes (test/model/test_forecast.c). */
+ * 10^5 nodes (test/app/plan/test_forecast.c). */
 #include "forecast.h"
 #include "perigal/linalg.h"
 #include <math.h>
