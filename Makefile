@@ -10,7 +10,7 @@ SIZE    ?= full
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
 # One-way order of the folders, nested ones by their path (mechanics/bonds): a file sees its own folder and those to its left (doc/architecture.md).
-ORDER   := base ranks scene/quantity scene discretization/kernel mechanics/material mechanics/criterion linalg linalg/preconditioner netcdf geometry/mesh io/mesh_files geometry/cloud/search geometry/cloud/body geometry/cloud geometry/cells approx discretization/integration sums model force fracture contact symbol solve output picture app/compare results scene/keys app/compare/stored app/plan app/session app/study app/cli
+ORDER   := base ranks scene/quantity scene discretization/kernel mechanics/material mechanics/criterion linalg linalg/preconditioner netcdf geometry/mesh io/mesh_files geometry/cloud/search geometry/cloud/body geometry/cloud geometry/cells approx discretization/integration sums model crack/geometry force fracture contact symbol solve output picture app/compare results scene/keys app/compare/stored app/plan app/session app/study app/cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libqhull-dev libcmocka-dev

@@ -119,6 +119,12 @@ void  *pg_memory_realloc (void *block, size_t bytes);
     size_t cap_ = 2 * (size_t) (need) + 16; void *q_ = pg_resize ((p), cap_, sizeof *(p)); \
     if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", cap_, sizeof *(p)); \
     (p) = q_; (cap) = cap_; } } while (0)
+/* Arrays that share a capacity: PG_GROW of one with `each` values for an element, which leaves the capacity
+ * to the PG_GROW of the last. */
+#define PG_GROW_ALSO(p, each, cap, need) do { if ((size_t) (need) > (cap)) { \
+    void *q_ = pg_resize ((p), (each) * (2 * (size_t) (need) + 16), sizeof *(p)); \
+    if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", (size_t) (need), (each) * sizeof *(p)); \
+    (p) = q_; } } while (0)
 
 /* ---- checkpoints -------------------------------------------------------------------------------------- */
 /* One walk over everything that a run must remember: the same code writes a checkpoint or reads it back

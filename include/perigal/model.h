@@ -5,7 +5,7 @@
 #include <math.h>
 #include "perigal/scene.h"
 #include "perigal/criterion.h"
-#include "perigal/cells.h"
+#include "perigal/crack.h"
 #include "perigal/approx.h"
 #include "perigal/integration.h"
 #include "perigal/sums.h"
@@ -253,45 +253,6 @@ const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *
 /* Approximation and horizon that the scene asks of a force, at this spacing, m. PG_E_SCENE. */
 pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing);
 
-/* Where a body is, and how fine its points are there: what the geometry of cracks asks for. Borrowed. */
-typedef struct {
-    int dim;
-    const pg_cloud *cloud;  const pg_body *body;
-    const pg_between *between;                         /* what parts the points; NULL: nothing does */
-    const struct pg_body_search *search;               /* NULL: there is none (body_search.c) */
-    /* Distance behind a tip from which its crack cuts, where the spacing is cloud->h, m; of a tip whose faces
-     * touch. */
-    double tip_offset, closed_tip_offset;
-} pg_ground;
-
-/* An end of a crack in the plane, from which it may grow. */
-typedef struct {
-    long   id;                                         /* 1, 2, ... as they came into being; stays with it */
-    size_t segment; int end;  /* cracks.crack[segment] ends there: 0: with its first vertex, 1: the second */
-    int    open;  /* 0: met a boundary or another crack, or was stopped: grows no more */
-    double x[3];                                       /* m */
-    double offset;                                     /* bonds are cut only so far behind x, m */
-    double grown;                                      /* length since the start, m */
-} pg_tip;
-
-enum { PG_MEETS_NOTHING, PG_MEETS_SURFACE, PG_MEETS_CRACK };
-/* A front of a crack in space: vertices about a spacing apart, in the order in which the tangent runs, which
- * is ahead x normal: ahead, normal and tangent are right-handed. The ends of a front that is no loop lie on
- * the surface of the body, or on another crack. */
-typedef struct {
-    long   id;                                         /* 1, 2, ... as they came into being; stays with it */
-    long   of;  /* id of the one that it has parted from; its own where it has not */
-    int    closed, open;                               /* a loop; 0: grows no more */
-    size_t n, capacity;
-    /* vertices (m), unit normal of the crack, unit vector ahead (n x 3 each) */
-    double *x, *normal, *ahead;
-    double *offset, *grown;  /* bonds are cut only so far behind x (m); length grown (m) (n each) */
-    unsigned char *meets;                              /* per vertex: PG_MEETS_... */
-    /* Where the triangles that have grown end: their vertices (pg_crack_surfaces.vertex), in the order of the
-     * front; at the ends of the front it may go on beyond the surface. None: nothing has grown yet. */
-    size_t *rim, nrim, rim_capacity;
-} pg_front;
-
 /* What of a material is an expression of place, by PG_OF_... of perigal/criterion.h. */
 typedef struct {
     pg_expression *of[PG_OF_COUNT];                    /* NULL: a number, or not given */
@@ -466,54 +427,13 @@ int       pg_problem_removes     (const pg_problem *problem);          /* 1: som
 /* 1: a load changes in that stage (from 0). */
 int       pg_stage_loads         (const pg_problem *problem, size_t stage);
 
-/* ---- cracks that grow (2D) ----------------------------------------------------------------------------- */
-/* The cracks that exist in a state: those of the scene first, then the facets that grew, straight pieces
- * which follow each other. All pieces of a path run in the same direction, so that its left side is one
- * face. Where a crack of the scene grows, the part of it that cut no bonds yet becomes a piece of its own,
- * sided like the facets: points on it keep their bonds to one side. */
-typedef struct pg_crack_paths {
-    pg_cracks cracks;  size_t capacity, nfirst;        /* nfirst: how many are the scene's */
-    size_t *parent;  /* per piece: the one that it continues (they share a vertex); SIZE_MAX: none */
-    size_t *path;  /* per piece: number of its path; pieces of a path hang together by their vertices */
-    long   *owner;  /* per piece: id of the tip that made it; 0: cracks of the scene, and new cracks */
-    double *store;  /* vertices and retreats of the pieces (6 each), to which their pointers lead */
-    pg_tip *tip;  size_t ntip, tip_capacity;
-    double  length;                                    /* grown since the start, m */
-    double  nothing;                                   /* places no further apart are one, m */
-} pg_crack_paths;
-/* Parts of pg_state_create, pg_state_copy, pg_state_free and of checkpoints. Copying to paths that once held
- * as many pieces cannot fail. */
+/* Parts of pg_state_create and of checkpoints: the cracks that a problem begins with; what is kept of them. */
 pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *problem);
-pg_status pg_crack_paths_copy   (pg_crack_paths *to, const pg_crack_paths *from);
-void      pg_crack_paths_free   (pg_crack_paths **paths);
 pg_status pg_crack_paths_keep   (pg_crack_paths *paths, const pg_problem *problem, const char *name,
                                  const pg_keeper *keeper);
-
-/* ---- cracks that grow in space ------------------------------------------------------------------------- */
-/* The cracks that exist in a state: those of the scene first, then the triangles that grew, which share their
- * vertices with each other (no bond passes between them). Triangles are sided: their normal is that of the
- * front that made them, and points on them keep their bonds to the side that it shows to. They reach as far
- * as the crack cuts, a little behind the fronts. */
-typedef struct pg_crack_surfaces {
-    pg_cracks cracks;  size_t capacity, nfirst;        /* nfirst: how many are the scene's */
-    double *vertex;  size_t nvertex, vertex_capacity;  /* of the triangles, nvertex x 3, m */
-    size_t *corner;                                    /* per triangle 3 vertices */
-    long   *owner;                                     /* per triangle: id of the front that made it */
-    double *store;                                     /* per triangle the places of its corners, 9 each */
-    pg_front *front;  size_t nfront, front_capacity;   /* fronts: those of the scene's cracks first */
-    double  area;                                      /* grown since the start, inside the body, m^2 */
-    double  nothing;                                   /* places no further apart are one, m */
-} pg_crack_surfaces;
 pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *problem);
-pg_status pg_crack_surfaces_copy   (pg_crack_surfaces *to, const pg_crack_surfaces *from);
-void      pg_crack_surfaces_free   (pg_crack_surfaces **surfaces);
 pg_status pg_crack_surfaces_keep   (pg_crack_surfaces *surfaces, const pg_problem *problem, const char *name,
                                     const pg_keeper *keeper);
-/* ---- fronts of cracks in space ------------------------------------------------------------------------- */
-/* Room for n vertices in the arrays of a front; a copy of one in another's arrays; its arrays. */
-pg_status pg_front_reserve (pg_front *front, size_t n);
-pg_status pg_front_copy    (pg_front *to, const pg_front *from);
-void      pg_front_clear   (pg_front *front);
 
 /* ---- state: one block and the paths of its cracks; copyable, comparable, savable ----------------------- */
 typedef struct {
@@ -549,23 +469,11 @@ pg_status pg_crack_grow  (pg_state *state, const pg_problem *problem, size_t tip
                           pg_changes *cut);
 /* A new crack; bit 0, 1 of open: its end `from`, `to` is a tip; PG_START_SLIDES: its faces touch and slide
  * (closed_tip_offset). Other ends lie on the surface or on another crack. */
-enum { PG_START_SLIDES = 4 };
 pg_status pg_crack_start (pg_state *state, const pg_problem *problem, const double *from, const double *to,
                           int open, pg_changes *cut);
 /* At the start of a run: the path of a tip that has not grown cuts only from `offset` (m) behind it on, if
  * that is more than so far and no more than a share of the path; bonds that it cuts no more live again. */
 void      pg_tip_draw_back (pg_state *state, const pg_problem *problem, size_t tip, double offset);
-/* The place `back` (m) behind a tip along its path, at most the path's other end, and the unit vector from
- * there to the tip (2 each). */
-void      pg_tip_chord    (const pg_crack_paths *paths, size_t tip, double back, double *from,
-                           double *direction);
-/* Distance along the path behind a tip to the first turn by more than `angle` (rad), m; INFINITY: none. */
-double    pg_tip_straight (const pg_crack_paths *paths, size_t tip, double angle);
-/* The vertices of the path of a tip, from the tip to its other end, without those at which it runs straight
- * on (*x: *n x 2, m; the caller frees). */
-pg_status pg_tip_vertices (const pg_crack_paths *paths, size_t tip, size_t *n, double **x);
-/* Length of the path behind a tip up to its other end, or `limit` if that is less, m. */
-double    pg_tip_behind   (const pg_crack_paths *paths, size_t tip, double limit);
 /* Points per spacing at which the faces of a crack are sampled, and the parts of equal length of so much of a
  * crack (m, at a local spacing h) in whose middle they lie. */
 #define PG_CRACK_POINTS 8
@@ -583,20 +491,6 @@ pg_ground pg_problem_ground (const pg_problem *problem);
 int       pg_problem_has_body (const pg_problem *problem, const double *x);
 /* Local spacing at x: that of the nearest point, m. */
 double    pg_problem_spacing_at (const pg_problem *problem, const double *x);
-/* How far from a tip in a direction (unit vector) the body ends, or a crack lies across, m; *what says
- * which. At most `limit`. Gaps in a mesh of less than an eighth of the spacing may be missed. */
-double    pg_tip_ahead (const pg_ground *ground, const pg_crack_paths *paths, size_t tip,
-                        const double *direction, double limit, int *what);
-/* Distance from a tip to the nearest place of the surface, of another path, or of another open tip, m; at
- * most `limit`. place (2) and what may be NULL. */
-double    pg_tip_nearest (const pg_ground *ground, const pg_crack_paths *paths, size_t tip, double limit,
-                          double *place, int *what);
-/* Distance from x (2, m) on a tip's path to surface, other path, branch or open tip, m, at most `limit`. */
-double    pg_path_room (const pg_ground *ground, const pg_crack_paths *paths, size_t tip, const double *x,
-                        double limit);
-/* Is a piece passed on the way from the tip along its path to the other end? */
-int       pg_tip_passes (const pg_crack_paths *paths, size_t tip, size_t piece);
-
 /* The fronts that exist in a state (NULL: at the start). */
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n);
 /* Moves vertex i of an open front by d[i] (m; 0: it stays) in the direction cos theta[i] ahead + sin theta[i]
@@ -610,9 +504,6 @@ const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *s
  * its crack cuts to its end. */
 pg_status pg_front_advance (pg_state *state, const pg_problem *problem, size_t front, const double *d,
                             const double *theta, pg_changes *cut);
-/* A unit vector in the plane across a unit normal, which follows from that plane and the axes of the lattice:
- * seen in a mirror or turned by a right angle it is that of before, or at 60 or 90 degrees to it. */
-void      pg_plane_axis (const double *normal, double *along);
 /* A new crack: the convex polygon of n places (n x 3, m) in a plane of unit normal `normal`; what of its
  * outline lies inside the body is a front. */
 pg_status pg_surface_start (pg_state *state, const pg_problem *problem, size_t n, const double *x,

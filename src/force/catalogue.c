@@ -104,13 +104,6 @@ done:
     return status;
 }
 
-/* May be called on one that was never filled. */
-void pg_jump_rows_clear (pg_jump_rows *rows)
-{
-    pg_free (rows->start), pg_free (rows->node), pg_free (rows->value);
-    memset (rows, 0, sizeof *rows);
-}
-
 void pg_bond_group_clear (pg_bond_group *group)
 {
     pg_free (group->bond), pg_free (group->owner), pg_free (group->node);

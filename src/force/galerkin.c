@@ -188,15 +188,6 @@ static pg_status galerkin_share_of (void *self, const double *x, const pg_change
 }
 
 /* ---- balance ------------------------------------------------------------------------------------------- */
-double galerkin_squared (const galerkin *g, const double *force)
-{
-    size_t dim = (size_t) g->dim;
-    double s = 0;
-    for (size_t i = 0; i < g->n * dim; i++)
-        if (pg_cloud_owns (&g->problem->cloud, i / dim)) s += force[i] * force[i];
-    return s;
-}
-
 /* The largest of three forces, N, of which this rank knows its share of the squares. */
 static double largest_of (const galerkin *g, double inside, double external, double reaction)
 {

@@ -129,3 +129,12 @@ double galerkin_bulk_energy (const galerkin *g, const double *d)
     }
     return sum;
 }
+
+double galerkin_squared (const galerkin *g, const double *force)
+{
+    size_t dim = (size_t) g->dim;
+    double s = 0;
+    for (size_t i = 0; i < g->n * dim; i++)
+        if (pg_cloud_owns (&g->problem->cloud, i / dim)) s += force[i] * force[i];
+    return s;
+}

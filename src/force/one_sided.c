@@ -152,3 +152,10 @@ pg_status trace_rows (const pg_problem *p, const pg_approx *by, const pg_state *
     a.congruent = 0;
     return find (p, &a, state, n, x, normal, &inner, out);
 }
+
+/* May be called on one that was never filled. */
+void pg_jump_rows_clear (pg_jump_rows *rows)
+{
+    pg_free (rows->start), pg_free (rows->node), pg_free (rows->value);
+    memset (rows, 0, sizeof *rows);
+}

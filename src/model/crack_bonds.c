@@ -4,7 +4,7 @@
  * plane and triangles in space. Only the new ones are asked, through an index of their own
  * (geometry/cloud/body/crack_index.c): first the box of all of them, then for each point the boxes near it,
  * then its bonds. */
-#include "crack_surfaces.h"
+#include "model.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -127,7 +127,7 @@ pg_status pg_crack_grow (pg_state *s, const pg_problem *p, size_t tip, const dou
     const pg_ground g = pg_problem_ground (p);
     change c = { 0 };
     PG_TRY (begin (&c, s, 2 + (s->paths ? s->paths->ntip : 0)));   /* tips that end here are split, too */
-    PG_TRY (paths_grow (c.fresh, &g, tip, to, close, c.changed));
+    PG_TRY (pg_paths_grow (c.fresh, &g, tip, to, close, c.changed));
     PG_TRY (finish (&c, s, p, cut));
 done:
     end (&c);
@@ -141,7 +141,7 @@ pg_status pg_crack_start (pg_state *s, const pg_problem *p, const double *from, 
     const pg_ground g = pg_problem_ground (p);
     change c = { 0 };
     PG_TRY (begin (&c, s, 1));
-    PG_TRY (paths_start (c.fresh, &g, from, to, open, c.changed));
+    PG_TRY (pg_paths_start (c.fresh, &g, from, to, open, c.changed));
     PG_TRY (finish (&c, s, p, cut));
 done:
     end (&c);
@@ -151,7 +151,7 @@ done:
 void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offset)
 {
     size_t dim = (size_t) p->dim;
-    if (!paths_draw_back (s->paths, tip, offset)) return;
+    if (!pg_paths_draw_back (s->paths, tip, offset)) return;
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_rows *rows = &p->rows[set];
         unsigned char *alive = s->alive + p->first_bond[set];
@@ -198,7 +198,7 @@ pg_status pg_front_advance (pg_state *state, const pg_problem *p, size_t front, 
     const pg_ground g = pg_problem_ground (p);
     pg_crack_surfaces *fresh = NULL;
     pg_status status = copy_surfaces (&fresh, state);
-    if (status == PG_OK) status = surfaces_advance (fresh, &g, front, d, theta);
+    if (status == PG_OK) status = pg_surfaces_advance (fresh, &g, front, d, theta);
     return take_surfaces (&fresh, state, p, status, cut);
 }
 
@@ -208,6 +208,26 @@ pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, cons
     const pg_ground g = pg_problem_ground (p);
     pg_crack_surfaces *fresh = NULL;
     pg_status status = copy_surfaces (&fresh, state);
-    if (status == PG_OK) status = surfaces_start (fresh, &g, n, x, normal);
+    if (status == PG_OK) status = pg_surfaces_start (fresh, &g, n, x, normal);
     return take_surfaces (&fresh, state, p, status, cut);
+}
+
+/* ---- the body around cracks ---------------------------------------------------------------------------- */
+pg_ground pg_problem_ground (const pg_problem *p)
+{
+    return (pg_ground) { .dim = p->dim, .cloud = &p->cloud, .body = &p->body, .between = p->between,
+                         .search = p->search, .tip_offset = p->tip_offset,
+                         .closed_tip_offset = p->closed_tip_offset };
+}
+
+int pg_problem_has_body (const pg_problem *p, const double *x)
+{
+    const pg_ground g = pg_problem_ground (p);
+    return pg_ground_has_body (&g, x);
+}
+
+double pg_problem_spacing_at (const pg_problem *p, const double *x)
+{
+    const pg_ground g = pg_problem_ground (p);
+    return pg_ground_spacing_at (&g, x);
 }

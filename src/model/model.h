@@ -41,22 +41,6 @@ void      pg_initial_set   (const pg_problem *problem, double *v);
 void      pg_initial_clear (pg_problem *problem);
 /* method.tip_offset: how far behind its tips and fronts each pre-crack cuts; the tips in the plane. */
 pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
-/* fronts.c: the fronts of the pre-cracks in space (*out, *n), before these retreat. retreat: of each crack,
- * of each of its edges (of a disc: one), m; NULL: none retreats. */
-pg_status pg_fronts_find (const pg_ground *ground, const pg_cracks *cracks, double *const *retreat,
-                          pg_front **out, size_t *n);
-/* Where the body is (body_search.c): for a body in the plane, or one with cracks. */
-pg_status pg_body_search_create (pg_problem *problem);
-void      pg_body_search_free   (pg_problem *problem);
-/* Arrays that share a capacity: PG_GROW of one with `each` values for an element, which leaves the capacity
- * to the PG_GROW of the last. */
-#define GROW_ALSO(p, each, cap, need) do { if ((size_t) (need) > (cap)) { \
-    void *q_ = pg_resize ((p), (each) * (2 * (size_t) (need) + 16), sizeof *(p)); \
-    if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", (size_t) (need), (each) * sizeof *(p)); \
-    (p) = q_; } } while (0)
-/* crack_paths_memory.c: do two places lie at one? Room for n pieces of cracks in all. */
-int       pg_crack_paths_same (const pg_crack_paths *paths, const double *a, const double *b);
-pg_status pg_crack_paths_reserve (pg_crack_paths *paths, size_t n);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot
  * carry or show becomes a fault. */
@@ -66,17 +50,6 @@ void      pg_method_check_criterion (const pg_problem *problem, const pg_scene *
 /* Names of the forces without shape functions, with rotations: "a, b or c" */
 const char *pg_methods_of_points (const pg_problem *problem, char *out, size_t size);
 const char *pg_methods_with_rotations (const pg_problem *problem, char *out, size_t size);
-/* Distance from x in direction e (unit) to the first place without body, at most `limit`, m. */
-double    pg_ground_way_out (const pg_ground *ground, const double *x, const double *e, double limit);
-/* Is there body at x; local spacing there, m: pg_problem_has_body, pg_problem_spacing_at. */
-int       pg_ground_has_body   (const pg_ground *ground, const double *x);
-double    pg_ground_spacing_at (const pg_ground *ground, const double *x);
-/* How far a crack that ends at x, going in direction e, cuts beyond: on the surface as far as points may lie
- * outside of it, but not into body that follows; elsewhere and along the surface not at all. */
-double    pg_ground_beyond (const pg_ground *ground, const double *x, const double *e);
-/* What of the area (m^2) of the triangle o u v in space lies inside the body. */
-double    pg_ground_area_inside (const pg_ground *ground, const double *o, const double *u, const double *v,
-                                 double area);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */
@@ -113,20 +86,6 @@ pg_status pg_remark_contrast (pg_problem *problem);
 void      pg_bonds_cut   (const pg_problem *problem, unsigned char *alive);
 /* Does the bond x - y meet a crack or a slot of the scene? */
 int       pg_bond_cut_first (const pg_problem *problem, const double *x, const double *y);
-
-/* ---- crack_paths.c ------------------------------------------------------------------------------------- */
-/* What pg_crack_grow and pg_crack_start do to the paths, which have room for it; changed: marks pieces that
- * cut other bonds than before. PG_E_USAGE: nothing is changed. */
-pg_status paths_grow  (pg_crack_paths *paths, const pg_ground *ground, size_t tip, const double *to,
-                       int close, unsigned char *changed);
-pg_status paths_start (pg_crack_paths *paths, const pg_ground *ground, const double *from, const double *to,
-                       int open, unsigned char *changed);
-int       paths_draw_back (pg_crack_paths *paths, size_t tip, double offset);  /* 0: nothing is changed */
-/* crack_paths_memory.c: paths of cracks and their tips; places no further apart than `nothing` (m) are one.
- * pg_crack_paths_keep, at most so many pieces. */
-pg_status paths_of   (pg_crack_paths **out, const pg_cracks *cracks, const pg_tip *tip, size_t ntip,
-                      double nothing);
-pg_status paths_keep (pg_crack_paths *paths, long most, const char *name, const pg_keeper *keeper);
 
 /* ---- crack_doubles.c ----------------------------------------------------------------------------------- */
 /* Leaves out cracks that are given twice, and notes it; what overlaps otherwise is a fault of the scene. */

@@ -400,7 +400,9 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     PG_TRY (build_geometry (p, scene));
     if (pg_scene_partial (scene)) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (build_laws (p, scene));
-    PG_TRY (pg_body_search_create (p));
+    /* in the plane always, as a crack may begin anywhere; in space where cracks are, or may come */
+    if (p->dim == 2 || (p->dim == 3 && (p->cracks.n || pg_problem_grows (p))))
+        PG_TRY (pg_body_search_create (&p->search, &p->cloud, &p->body, &p->part));
     PG_TRY (pg_tips_retreat (p, scene));
     PG_TRY (pg_loads_read (p, scene));
     for (size_t l = 0; l < p->nload; l++) if (!p->load[l].set) PG_TRY (pg_scene_conclude (scene));
@@ -474,7 +476,7 @@ void pg_problem_free (pg_problem **problem)
     pg_between_free (&p->between);
     pg_cracks_clear (&p->cracks), pg_cracks_clear (&p->slots);
     for (size_t f = 0; p->front && f < p->nfront; f++) pg_front_clear (&p->front[f]);
-    pg_free (p->tip), pg_free (p->front), pg_body_search_free (p);
+    pg_free (p->tip), pg_free (p->front), pg_body_search_free (&p->search);
     pg_mesh_body_clear (&p->part);
     pg_body_clear (&p->body);
     pg_free (p);

@@ -2,7 +2,7 @@
  * The state: displacement coefficients, velocity, acceleration, alive bits, in one block; and its cracks,
  * which grow, in memory of their own: paths in the plane (crack_paths.c), surfaces in space
  * (crack_surfaces.c). */
-#include "crack_surfaces.h"
+#include "model.h"
 #include <string.h>
 
 /* The arrays lie behind the struct, each after the other, so that one copy takes all: d, v, a (ndof
@@ -21,25 +21,25 @@ static double nothing_of (const pg_problem *p) { return PG_NO_LENGTH * p->cloud.
 
 pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
 {
-    return paths_of (out, &p->cracks, p->tip, p->ntip, nothing_of (p));
+    return pg_paths_of (out, &p->cracks, p->tip, p->ntip, nothing_of (p));
 }
 
 pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *p)
 {
-    return surfaces_of (out, &p->cracks, p->front, p->nfront, nothing_of (p));
+    return pg_surfaces_of (out, &p->cracks, p->front, p->nfront, nothing_of (p));
 }
 
 /* A facet has cut one bond at least. A vertex of a surface has cut some bond, or lies beside one that has:
  * there are not more than a hundred for each bond. */
 pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const char *name, const pg_keeper *k)
 {
-    return paths_keep (w, (long) (p->cracks.n + p->ntip + p->first_bond[PG_BOND_SETS]), name, k);
+    return pg_paths_keep (w, (long) (p->cracks.n + p->ntip + p->first_bond[PG_BOND_SETS]), name, k);
 }
 
 pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, const char *name,
                                   const pg_keeper *k)
 {
-    return surfaces_keep (w, 1000 + 100 * (long) (p->cracks.n + p->first_bond[PG_BOND_SETS]), name, k);
+    return pg_surfaces_keep (w, 1000 + 100 * (long) (p->cracks.n + p->first_bond[PG_BOND_SETS]), name, k);
 }
 
 /* One block of memory; pre-cracks cut their bonds, points have the velocity that the scene gives them.

@@ -3,7 +3,6 @@
  * along them, so that there is an equilibrium only where the loads themselves balance. This asks no solver
  * and no solution, whose forces may be anything where K is singular. */
 #include "body_parts.h"
-#include "contact.h"
 #include "perigal/ranks.h"
 #include <math.h>
 #include <stdarg.h>

@@ -308,3 +308,15 @@ pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double
 done:
     return status;
 }
+
+/* ---- checkpoints -------------------------------------------------------------------------------------- */
+pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken,
+                          const pg_keeper *k)
+{
+    return pg_keep_fields (k, name, "bonds", "values", n, PG_ROWS (
+        PG_EACH_IN (broken, bond, 0, p->first_bond[PG_BOND_SETS] - 1, "a broken bond"),
+        PG_EACH_IN (broken, set, 0, PG_BOND_SETS - 1, "the set of a broken bond"),
+        PG_EACH_IN (broken, kind, 0, 127, "the kind of a broken bond"),
+        PG_EACH_IN (broken, round, 0, 1L << 50, "the round of a broken bond"),
+        PG_EACH (broken, utilisation), PG_EACH (broken, time), PG_EACH (broken, place)));
+}

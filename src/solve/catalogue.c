@@ -64,3 +64,25 @@ static unsigned flags_of (size_t i) { return entries[i]->flags; }
 const pg_key_catalogue pg_entry_keys_solve = {
     .selector = "solver.kind", .name = name_of, .keys = keys_of, .flags = flags_of
 };
+
+#define ROW PG_SOLVER_KEY
+static const pg_key keys[] = {
+    { "solver.kind", PG_NAME, NULL, NULL, PG_FIRST_CHOICE, NULL, pg_solver_names, NULL,
+      "The method that advances the state." },
+    ROW ("solver.max_events", PG_INTEGER, NULL, "[1, 1000000000]", "1000000", NULL,
+         "Event stepping ends after so many events; explicit dynamics after so many time steps with "
+         "breaking bonds."),
+    ROW ("solver.plain", PG_BOOL, NULL, NULL, "off", NULL,
+         "Switches every shortcut off that spares work without changing the answer (what a run skips, it "
+         "says): slower, for comparison. perigal run --plain is the same."),
+    ROW ("solver.stop.set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all",
+         "The run ends when the crack arrives at a point of this set."),
+    ROW ("solver.stop.damage", PG_NUMBER, "1", "(0, 1]", "50 %", NULL,
+         "Damage of a point of stop.set that counts as arrival."),
+    ROW ("output.at.levels", PG_INTEGER, NULL, "[1, 1000000]", "20", NULL,
+         "Fields are written at this many equal levels of load (quasi-static solvers) or time."),
+    ROW ("output.at.rows", PG_INTEGER, NULL, "[1, 1000000]", "", NULL,
+         "Explicit dynamics, and hold: off: largest number of rows of history.csv (at least one for each "
+         "level); if not given one for every ten time steps, 100 to 1000."),
+};
+const pg_key_table pg_keys_solve = { "solve", keys, sizeof keys / sizeof *keys };

@@ -116,3 +116,12 @@ void break_loop_return (break_loop *b)
     if (b->system.client) b->system.client->restore (&b->system);
     b->system.report->energy_strain = b->strain0, b->system.report->energy_kinetic = b->kinetic0;
 }
+
+pg_status moved_balance (break_loop *b, double t, const double *d, double scale)
+{
+    double work = b->work;
+    pg_work_balance_clear (&b->before);
+    pg_status status = break_loop_account (b, t, d, NULL, 0, scale);
+    b->work = work;
+    return status;
+}

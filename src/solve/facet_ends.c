@@ -3,7 +3,6 @@
  * out; where neither can be (a support or a load on points stands in the way, or the last ligament is pressed
  * together) nothing tells at which load it goes on. Rows of a run in which that is so have no say in its
  * peak, and where nothing else grows up to full load the run ends. */
-#include "event_stepping.h"
 #include "facet_growth.h"
 #include "front_growth.h"
 #include <math.h>

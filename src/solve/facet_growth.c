@@ -49,7 +49,7 @@ static void doubt_strength (const break_loop *b)
 }
 
 /* Where the criterion judges tips. */
-pg_status facet_create (break_loop *b)
+pg_status facet_create (break_loop *b, const growth_client *client)
 {
     pg_status status = PG_OK;
     const pg_problem *p = b->system.problem;
@@ -58,7 +58,7 @@ pg_status facet_create (break_loop *b)
     const char *why = pg_tip_refuses (p, b->system.force);
     if (why) PG_TRY (options_fault (b->system.options, "failure.criterion", "%s", why));
     PG_ALLOC (g, 1);
-    b->growth = g, b->grower = &facet_client;
+    b->growth = g, b->grower = client;
     g->length = b->system.options->facet;
     PG_TRY (pg_nearest_create (&g->near, p->dim, p->cloud.n, p->cloud.x));
     doubt_strength (b);

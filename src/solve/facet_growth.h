@@ -103,7 +103,8 @@ enum {
 static const double facet_tie = 1e-3;
 
 /* ---- facet_growth.c ------------------------------------------------------------------------------------ */
-pg_status facet_create  (break_loop *b);  /* where the criterion judges tips: a client of the loop */
+/* Where the criterion judges tips: a client of the loop. */
+pg_status facet_create  (break_loop *b, const growth_client *client);
 void      facet_free    (break_loop *b);
 pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
                          pg_step *step, int *again);

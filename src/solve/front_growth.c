@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Growth of crack surfaces in space: an equilibrium, J, K_I, K_II and K_III at every vertex of every front by
  * integrals over a tube around it (fracture/front_measure.c), a plan for all vertices together
- * (front_direction.c), and the surface advances by a strip of triangles (model/crack_surfaces.c); every bond
+ * (front_direction.c), and the surface advances by a strip of triangles
+ * (crack/geometry/crack_surfaces.c); every bond
  * that the strip crosses dies at once. J of a vertex scatters by a per cent or two, so the load of an event
  * is that at which those who lead set as much energy free as they take: the load of the single vertex that
  * comes first would be too low by that scatter. This file: what facet_growth.c asks of fronts; the events are

@@ -62,15 +62,6 @@ done:
     return status;
 }
 
-pg_status moved_balance (break_loop *b, double t, const double *d, double scale)
-{
-    double work = b->work;
-    pg_work_balance_clear (&b->before);
-    pg_status status = break_loop_account (b, t, d, NULL, 0, scale);
-    b->work = work;
-    return status;
-}
-
 pg_status pg_solver_move (pg_solver *s, pg_state *state, const pg_moved *m)
 {
     pg_status status = PG_OK;

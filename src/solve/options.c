@@ -3,45 +3,11 @@
 #include "contact.h"
 #include "facet_growth.h"
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_STEPS = 1000000000 };
-
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 static int given (const pg_scene *scene, const char *key) { return pg_scene_given (scene, "%s", key); }
-
-/* While a scene is at hand a fault is placed at its key; a program that sets options by itself gets an
- * error. */
-pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
-{
-    char text[1000];
-    va_list args;
-    va_start (args, format);
-    vsnprintf (text, sizeof text, format, args);
-    va_end (args);
-    if (!o->scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
-    pg_scene_fault (o->scene, key, "%s", text);
-    return pg_scene_verdict (o->scene);
-}
-
-pg_status options_blame (pg_status status, const pg_solver_options *o, const char *key)
-{
-    return o->scene ? pg_scene_blame (o->scene, key, status) : status;
-}
-
-/* Without the key 0, also where the key has a default. */
-double options_number (const pg_scene *scene, const char *key)
-{
-    return given (scene, key) ? pg_scene_number (scene, "%s", key) : 0;
-}
-
-/* The whole number of a key of the scene; without the key 0, also where the key has a default. */
-static long whole_number (const pg_scene *scene, const char *key)
-{
-    return given (scene, key) ? pg_scene_integer (scene, "%s", key) : 0;
-}
 
 /* Filters of the catalogue of solvers, for messages that name those that would do. */
 static int breaks_in_passing (const pg_solver_type *type, const void *unused)
@@ -148,76 +114,6 @@ static void read_breaking (pg_solver_options *o, const pg_problem *problem, cons
     read_facets (o, problem, scene);
 }
 
-/* Nothing prescribed but zero needs no ramp. */
-static int stands_still (const pg_problem *p, const pg_load *load)
-{
-    for (size_t i = 0; i < load->set->npoint; i++)
-        for (int k = 0; k < pg_load_components (load, p->dim); k++)
-            if (load->value[k]
-                && pg_load_value (load, k, p->dim,
-                                  p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, 1)
-                       != 0)
-                return 0;
-    return pg_load_prescribes (load) || load->kind == PG_SPRING;
-}
-
-/* A linear ramp has no slope where the end of the run is not known. */
-static void need_end (const pg_problem *problem, const pg_scene *scene)
-{
-    char path[64];
-    for (size_t i = 0; i < problem->nload; i++) {
-        snprintf (path, sizeof path, "boundary[%zu].ramp", i);
-        int linear = given (scene, path) ? is (pg_scene_text (scene, "%s", path), "linear")
-                                         : problem->load[i].kind != PG_VELOCITY && !problem->load[i].ntable;
-        if (linear && !stands_still (problem, &problem->load[i]))
-            pg_scene_fault (scene, path,
-                            "linear rises up to the end of the run: give solver.end, or solver.dt beside "
-                            "solver.time_steps");
-    }
-}
-
-/* What is missing of step, end and number of steps, and what is said twice. stable: the step may be left to
- * the largest frequency of the body, so that one of the last two is enough. */
-static void check_times (const pg_solver_options *o, const pg_scene *scene, int stable)
-{
-    if (!stable && !given (scene, "solver.dt") && !(o->end > 0 && o->time_steps))
-        pg_scene_fault (scene, "solver.dt", "%s needs a time step", o->kind);
-    if (!(o->end > 0) && !o->time_steps)
-        pg_scene_fault (scene, "solver.end", "%s needs an end time%s", o->kind,
-                        stable ? ", or solver.time_steps" : "");
-    if (o->dt > 0 && o->end > 0 && o->time_steps)
-        pg_scene_fault (scene, "solver.time_steps",
-                        "solver.dt and solver.end say how many time steps there are: give two of the three");
-}
-
-/* The third of step, end and number of steps from two of them. Equal steps fill the run, none longer than
- * asked. */
-static void complete_times (pg_solver_options *o, const pg_scene *scene)
-{
-    if (o->time_steps && o->end > 0) o->dt = o->end / (double) o->time_steps;
-    else if (o->time_steps && o->dt > 0) o->end = o->dt * (double) o->time_steps;
-    else if (o->dt > 0 && o->end > 0) {
-        double steps = ceil (o->end / o->dt * (1 - 1e-12));
-        if (steps > MOST_STEPS) pg_scene_fault (scene, "solver.dt", "%g time steps are too many", steps);
-        o->time_steps = (long) fmin (steps, MOST_STEPS);
-        if (fabs (steps * o->dt - o->end) > 1e-9 * o->end) o->dt = o->end / steps;
-    }
-}
-
-/* Times of methods in motion. Explicit ones choose the step themselves where none is given, so that
- * either the end or the number of steps may be left open until then. */
-void options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
-{
-    int stable = (o->flags & PG_SOLVER_EXPLICIT) != 0;
-    o->dt = options_number (scene, "solver.dt");
-    o->end = options_number (scene, "solver.end");
-    o->time_steps = whole_number (scene, "solver.time_steps");
-    check_times (o, scene, stable);
-    if (!(o->dt > 0 && o->end > 0 && o->time_steps)) complete_times (o, scene);
-    if (!stable) o->steps = o->time_steps;
-    if (stable && o->time_steps && !(o->end > 0)) need_end (problem, scene);
-}
-
 /* Inertia needs a mass at every point. */
 static void need_density (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
@@ -279,21 +175,6 @@ static int knows_contact (const pg_solver_type *type, const void *unused)
 {
     (void) unused;
     return (type->flags & PG_SOLVER_CONTACT) != 0;
-}
-
-/* Do new cracks begin where a strength is reached? */
-int options_begin_cracks (const pg_problem *problem)
-{
-    const double origin[3] = { 0, 0, 0 };
-    for (size_t m = 0; m < problem->nmaterial; m++) {
-        const pg_criterion *c = &problem->criterion[m];
-        pg_fracture_limits limits = { .strength = INFINITY };
-        if (!c->type || c->never || !pg_criterion_of_tips (c)) continue;
-        c->type->fracture (c, origin, 0, &limits);
-        if (isfinite (limits.strength) && limits.strength > 0) return 1;
-        if (limits.cohesion > 0) return 1;
-    }
-    return 0;
 }
 
 static int steps_explicitly (const pg_solver_type *type, const void *unused)
@@ -437,7 +318,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->tolerance = pg_scene_number (scene, "solver.tolerance");
     o->max_iterations = pg_scene_integer (scene, "solver.max_iterations");
     o->levels = pg_scene_integer (scene, "output.at.levels");
-    o->rows = o->flags & PG_SOLVER_IMPLICIT ? 0 : whole_number (scene, "output.at.rows");
+    o->rows = o->flags & PG_SOLVER_IMPLICIT ? 0 : options_integer (scene, "output.at.rows");
     o->contact = pg_contact_read (scene);
     read_breaking (o, problem, scene);
     if (type && type->read) type->read (o, problem, scene);

@@ -417,6 +417,7 @@ void solver_names_that (int (*fits) (const pg_solver_type *type, const void *con
 
 /* ---- options.c: parts of `read` of several solvers ----------------------------------------------------- */
 double options_number  (const pg_scene *scene, const char *key);       /* 0 where it is not given */
+long   options_integer (const pg_scene *scene, const char *key);
 int    options_begin_cracks (const pg_problem *problem);   /* new cracks begin where a strength is reached */
 /* solver.dt, end and time_steps. The caller says whether the step may be left to the solver: then one of the
  * last two is enough; else two of the three are needed. */

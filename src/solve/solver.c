@@ -43,7 +43,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     }
     PG_TRY (system_create (sys));
     PG_TRY (contact_create (sys));
-    PG_TRY (facet_create (&s->break_loop));
+    PG_TRY (facet_create (&s->break_loop, &facet_client));
     PG_ALLOC (s->reaction, PG_REACTIONS * problem->nload);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));

@@ -7,7 +7,7 @@
  *
  * Conditions are asked of states that bear their loads: after a fixed step, or where the next event would
  * begin or a level is reached; not while growth goes on at a held load, and not in motion. */
-#include "event_stepping.h"
+#include "solve.h"
 #include <math.h>
 #include <string.h>
 

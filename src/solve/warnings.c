@@ -389,7 +389,8 @@ static int crosses_void (const pg_problem *p, size_t i, const double *e)
 }
 
 /* Points of a file alone have no surface: what lies too far from all of them counts as outside
- * (model/body_search.c). Voids between irregular points are then taken for it, and a crack that comes to one
+ * (crack/geometry/body_search.c). Voids between irregular points are then taken for it, and a crack that
+ * comes to one
  * ends there. Looks from at most some thousand points, along the axes and the diagonals. */
 static void doubt_voids (pg_statistics *report, const pg_problem *p)
 {

@@ -359,7 +359,7 @@ done:
     return status;
 }
 
-pg_status surfaces_advance (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
+pg_status pg_surfaces_advance (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
                             const double *theta)
 {
     pg_status status = PG_OK;

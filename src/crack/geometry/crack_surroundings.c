@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What lies around the tip of a crack in the plane: the surface of the body, which is met by rays
  * (body_search.c), and other cracks. */
-#include "model.h"
+#include "perigal/crack.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
  * Where the body is, and how fine its points are there: for tips of cracks, which must know what lies ahead
  * of them. A body of shapes answers itself, a mesh by its elements, points of a file by the nearest of
  * them. */
-#include "model.h"
+#include "perigal/crack.h"
 #include <math.h>
 
 struct pg_body_search {
@@ -10,27 +10,28 @@ struct pg_body_search {
     pg_nearest *near;  /* among the points, where spacings differ or nothing else is known */
 };
 
-/* Bodies in the plane always, as a crack may begin anywhere in them; others if they have cracks, or may get
- * some. */
-pg_status pg_body_search_create (pg_problem *p)
+pg_status pg_body_search_create (struct pg_body_search **out, const pg_cloud *cloud, const pg_body *body,
+                                 const pg_mesh_body *part)
 {
     pg_status status = PG_OK;
-    if (p->dim == 1 || (p->dim == 3 && p->cracks.n == 0 && !pg_problem_grows (p))) return PG_OK;
-    PG_ALLOC (p->search, 1);
-    if (p->part.mesh.n) PG_TRY (pg_mesh_locator_create (&p->search->locator, &p->part.mesh));
-    if (p->cloud.size || (!p->body.n && !p->part.mesh.n))
-        PG_TRY (pg_nearest_create (&p->search->near, p->dim, p->cloud.n, p->cloud.x));
+    struct pg_body_search *s = NULL;
+    PG_ALLOC (s, 1);
+    if (part->mesh.n) PG_TRY (pg_mesh_locator_create (&s->locator, &part->mesh));
+    if (cloud->size || (!body->n && !part->mesh.n))
+        PG_TRY (pg_nearest_create (&s->near, cloud->dim, cloud->n, cloud->x));
+    *out = s, s = NULL;
 done:
+    pg_body_search_free (&s);
     return status;
 }
 
-void pg_body_search_free (pg_problem *p)
+void pg_body_search_free (struct pg_body_search **search)
 {
-    if (!p->search) return;
-    pg_mesh_locator_free (&p->search->locator);
-    pg_nearest_free (&p->search->near);
-    pg_free (p->search);
-    p->search = NULL;
+    if (!*search) return;
+    pg_mesh_locator_free (&(*search)->locator);
+    pg_nearest_free (&(*search)->near);
+    pg_free (*search);
+    *search = NULL;
 }
 
 /* The nearest point, -1: none was asked for when the search was made. */
@@ -141,24 +142,4 @@ double pg_ground_area_inside (const pg_ground *p, const double *o, const double 
         if (pg_ground_has_body (p, x)) in += r;
     }
     return area * in / all;
-}
-
-/* ---- of a problem -------------------------------------------------------------------------------------- */
-pg_ground pg_problem_ground (const pg_problem *p)
-{
-    return (pg_ground) { .dim = p->dim, .cloud = &p->cloud, .body = &p->body, .between = p->between,
-                         .search = p->search, .tip_offset = p->tip_offset,
-                         .closed_tip_offset = p->closed_tip_offset };
-}
-
-int pg_problem_has_body (const pg_problem *p, const double *x)
-{
-    const pg_ground g = pg_problem_ground (p);
-    return pg_ground_has_body (&g, x);
-}
-
-double pg_problem_spacing_at (const pg_problem *p, const double *x)
-{
-    const pg_ground g = pg_problem_ground (p);
-    return pg_ground_spacing_at (&g, x);
 }

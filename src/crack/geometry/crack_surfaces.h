@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to the model folder: surfaces of cracks that grow in space, and how a front advances.
+ * Private to the folder: surfaces of cracks that grow in space, and how a front advances.
  *
  *   crack_surfaces.c        one step of a front on a copy of the surfaces; what of it is a front after it
  *   crack_surfaces_move.c   where its vertices go, and where the crack cuts behind them
@@ -11,16 +11,11 @@
  *   crack_surfaces_memory.c memory, copies, checkpoints */
 #ifndef PG_MODEL_CRACK_SURFACES_H
 #define PG_MODEL_CRACK_SURFACES_H
-#include "model.h"
+#include "perigal/crack.h"
 #include "perigal/vector.h"
 #include <math.h>
 
 /* ---- crack_surfaces_memory.c --------------------------------------------------------------------------- */
-/* Surfaces that grow from cracks and their fronts; places no further apart than `nothing` (m) are one.
- * pg_crack_surfaces_keep, at most so many parts of a kind. */
-pg_status surfaces_of   (pg_crack_surfaces **out, const pg_cracks *cracks, const pg_front *front,
-                         size_t nfront, double nothing);
-pg_status surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k);
 pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices);   /* in all */
 pg_status surfaces_reserve_fronts (pg_crack_surfaces *w, size_t n);
 
@@ -107,12 +102,6 @@ pg_status stride_beyond_end (stride *s, unsigned char meets, const double *end, 
 /* Adds the vertices of a front, whose crack cuts to c, to the line; its rim is that stretch of the line.
  * shared: its first vertex is the last of the line already. starts, stops: with what lies beyond its ends. */
 pg_status stride_lay        (stride *s, pg_front *f, const double *c, int shared, int starts, int stops);
-/* What pg_front_advance does to surfaces; d, theta NULL: the front ends where it is. What pg_surface_start
- * does. PG_E_USAGE. */
-pg_status surfaces_advance (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
-                            const double *theta);
-pg_status surfaces_start   (pg_crack_surfaces *w, const pg_ground *p, size_t n, const double *x,
-                            const double *normal);
 /* How far behind its place a front cuts nothing, m. */
 double front_offset_at (const pg_ground *p, const double *x);
 long   surfaces_next_id (const pg_crack_surfaces *w);

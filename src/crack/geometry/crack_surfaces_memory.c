@@ -12,11 +12,11 @@
 pg_status pg_front_reserve (pg_front *f, size_t n)
 {
     pg_status status = PG_OK;
-    GROW_ALSO (f->x, 3, f->capacity, n);
-    GROW_ALSO (f->normal, 3, f->capacity, n);
-    GROW_ALSO (f->ahead, 3, f->capacity, n);
-    GROW_ALSO (f->offset, 1, f->capacity, n);
-    GROW_ALSO (f->grown, 1, f->capacity, n);
+    PG_GROW_ALSO (f->x, 3, f->capacity, n);
+    PG_GROW_ALSO (f->normal, 3, f->capacity, n);
+    PG_GROW_ALSO (f->ahead, 3, f->capacity, n);
+    PG_GROW_ALSO (f->offset, 1, f->capacity, n);
+    PG_GROW_ALSO (f->grown, 1, f->capacity, n);
     PG_GROW (f->meets, f->capacity, n);
 done:
     return status;
@@ -73,9 +73,9 @@ pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices
 {
     pg_status status = PG_OK;
     PG_GROW (w->vertex, w->vertex_capacity, 3 * vertices);
-    GROW_ALSO (w->cracks.crack, 1, w->capacity, cracks);
-    GROW_ALSO (w->corner, 3, w->capacity, cracks);
-    GROW_ALSO (w->store, 9, w->capacity, cracks);
+    PG_GROW_ALSO (w->cracks.crack, 1, w->capacity, cracks);
+    PG_GROW_ALSO (w->corner, 3, w->capacity, cracks);
+    PG_GROW_ALSO (w->store, 9, w->capacity, cracks);
     PG_GROW (w->owner, w->capacity, cracks);
 done:
     if (w->store) point_into_store (w);
@@ -84,8 +84,8 @@ done:
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* Cracks of the scene are the problem's: a state has their vertices by reference, for they do not change. */
-pg_status surfaces_of (pg_crack_surfaces **out, const pg_cracks *cracks, const pg_front *front, size_t nfront,
-                       double nothing)
+pg_status pg_surfaces_of (pg_crack_surfaces **out, const pg_cracks *cracks, const pg_front *front,
+                          size_t nfront, double nothing)
 {
     pg_status status = PG_OK;
     pg_crack_surfaces *w = NULL;
@@ -173,7 +173,7 @@ done:
 }
 
 /* The counts first. Of triangles the normals are kept as they are, for slivers have theirs from the front. */
-pg_status surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k)
+pg_status pg_surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     size_t n = w->cracks.n - w->nfirst, nvertex = w->nvertex, nfront = w->nfront;

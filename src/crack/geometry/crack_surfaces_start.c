@@ -131,7 +131,7 @@ done:
     return status;
 }
 
-pg_status surfaces_start (pg_crack_surfaces *w, const pg_ground *p, size_t n, const double *x,
+pg_status pg_surfaces_start (pg_crack_surfaces *w, const pg_ground *p, size_t n, const double *x,
                           const double *normal)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Memory of the paths of growing cracks (crack_paths.c): made with a state, copied with it, kept in its
  * checkpoints. */
-#include "model.h"
+#include "perigal/crack.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -17,10 +17,10 @@ static void point_into_store (pg_crack_paths *w)
 pg_status pg_crack_paths_reserve (pg_crack_paths *w, size_t n)
 {
     pg_status status = PG_OK;
-    GROW_ALSO (w->cracks.crack, 1, w->capacity, n);
-    GROW_ALSO (w->parent, 1, w->capacity, n);
-    GROW_ALSO (w->path, 1, w->capacity, n);
-    GROW_ALSO (w->store, 6, w->capacity, n);
+    PG_GROW_ALSO (w->cracks.crack, 1, w->capacity, n);
+    PG_GROW_ALSO (w->parent, 1, w->capacity, n);
+    PG_GROW_ALSO (w->path, 1, w->capacity, n);
+    PG_GROW_ALSO (w->store, 6, w->capacity, n);
     PG_GROW (w->owner, w->capacity, n);
 done:
     if (w->store) point_into_store (w);
@@ -56,7 +56,7 @@ static void name_paths (pg_crack_paths *w)
     }
 }
 
-pg_status paths_of (pg_crack_paths **out, const pg_cracks *cracks, const pg_tip *tip, size_t ntip,
+pg_status pg_paths_of (pg_crack_paths **out, const pg_cracks *cracks, const pg_tip *tip, size_t ntip,
                     double nothing)
 {
     pg_status status = PG_OK;
@@ -121,7 +121,7 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 /* The counts first: arrays of that length follow. A facet has cut one bond at least. The normal of a piece is
  * kept too: that of a piece of which a part was split off, or of a crack of the scene, is another in its last
  * digit than what its ends would give. */
-pg_status paths_keep (pg_crack_paths *w, long most, const char *name, const pg_keeper *k)
+pg_status pg_paths_keep (pg_crack_paths *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     size_t n = w->cracks.n, ntip = w->ntip;

@@ -7,7 +7,7 @@
  * were cut (tips.c has o). When the tip moves on, what it has left behind is cut as well. So the part of a
  * crack of the scene that cut nothing yet must become sided when it grows; it is split off as a piece of its
  * own, and both pieces together are what the crack was. */
-#include "model.h"
+#include "perigal/crack.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -229,7 +229,7 @@ static void close_met (pg_crack_paths *w, const pg_ground *p, size_t tip, unsign
     }
 }
 
-pg_status paths_grow (pg_crack_paths *w, const pg_ground *p, size_t tip, const double *to, int close,
+pg_status pg_paths_grow (pg_crack_paths *w, const pg_ground *p, size_t tip, const double *to, int close,
                       unsigned char *changed)
 {
     pg_status status = PG_OK;
@@ -260,8 +260,8 @@ static void add_tip (pg_crack_paths *w, size_t k, int at)
     w->tip[w->ntip++] = (pg_tip) { .id = id, .segment = k, .end = at, .open = 1, .x = { x[0], x[1] } };
 }
 
-pg_status paths_start (pg_crack_paths *w, const pg_ground *p, const double *from, const double *to, int open,
-                       unsigned char *changed)
+pg_status pg_paths_start (pg_crack_paths *w, const pg_ground *p, const double *from, const double *to,
+                          int open, unsigned char *changed)
 {
     pg_status status = PG_OK;
     double length = hypot (to[0] - from[0], to[1] - from[1]);
@@ -285,7 +285,7 @@ done:
 }
 
 /* Boxes of the index stay as they are: a crack that cuts less lies within them. */
-int paths_draw_back (pg_crack_paths *w, size_t tip, double offset)
+int pg_paths_draw_back (pg_crack_paths *w, size_t tip, double offset)
 {
     pg_tip *t = &w->tip[tip];
     offset = fmin (offset, OFFSET_OF_PATH * pg_tip_behind (w, tip, offset / OFFSET_OF_PATH));
