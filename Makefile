@@ -10,7 +10,7 @@ SIZE    ?= full
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
 # One-way order of the folders, nested ones by their path (mechanics/bonds): a file sees its own folder and those to its left (doc/architecture.md).
-ORDER   := base ranks scene/quantity scene discretization/kernel mechanics/material mechanics/criterion linalg linalg/preconditioner netcdf geometry/mesh io/mesh_files geometry/cloud/search geometry/cloud/body geometry/cloud geometry/cells approx discretization/integration sums model crack/geometry force fracture contact symbol solve output picture app/compare results scene/keys app/compare/stored app/plan app/session app/study app/cli
+ORDER   := base ranks scene/quantity scene discretization/kernel mechanics/material mechanics/criterion linalg linalg/preconditioner io/netcdf geometry/mesh io/mesh_files geometry/cloud/search geometry/cloud/body geometry/cloud geometry/cells crack crack/geometry discretization/approx discretization/integration mechanics/sums/terms mechanics/sums/lattice mechanics/sums/list mechanics/sums mechanics/model force mechanics/boundary mechanics/bonds mechanics/galerkin/weak_form mechanics/galerkin mechanics crack/fracture contact mechanics/symbol solve/run solve/system solve/breaking solve/contact solve/growth solve/newmark solve/events solve/explicit solve io/output io/picture app/compare app/results scene/keys app/compare/stored app/plan app/session app/study app/cli/preparation app/cli/plots app/cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libqhull-dev libcmocka-dev
@@ -19,11 +19,11 @@ OPTIONAL := petsc-dev mpi-default-dev mpi-default-bin octave octave-netcdf octav
 
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
-THREADED := base sums force
+THREADED := base mechanics/sums mechanics/force
 # most tests compute little themselves: those of other folders than these compile in half the time
-COSTLY   := linalg sums force contact picture
+COSTLY   := linalg mechanics/sums mechanics/force contact io/picture
 # what make compilers builds and runs
-PORTABLE := base discretization/kernel mechanics/material mechanics/criterion linalg approx discretization/integration sums force solve
+PORTABLE := base discretization/kernel mechanics/material mechanics/criterion linalg discretization/approx discretization/integration mechanics/sums mechanics/force solve
 T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
 # What every run loads when it starts; --as-needed: only those that are called directly.
 LIBS    := -Wl,--as-needed -lfftw3 -lyaml -ludunits2 -lm -lpthread -ldl
@@ -54,7 +54,7 @@ FUZZ_BUILD ?= build/fuzz
 
 ALL     := $(sort $(shell find src -name '*.c'))
 CLI     := $(filter src/app/cli/%,$(ALL))
-MPISRC  := $(filter src/mpi/%,$(ALL))
+MPISRC  := $(filter src/app/mpi/%,$(ALL))
 SOURCES := $(filter-out $(CLI) $(MPISRC) src/app/convert/%,$(ALL))
 TESTS   := $(sort $(shell find test -name 'test_*.c'))
 TOOLS   := $(wildcard bench/*.c)
@@ -62,7 +62,7 @@ OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
 CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
 TESTBIN := $(TESTS:test/%.c=$(BUILD)/test/%)
 # tests that replace a function of the C library, which the other tests of their folder must not see
-ALONE   := $(BUILD)/test/output/test_interrupted $(BUILD)/test/results/test_durable $(BUILD)/test/results/test_killed $(BUILD)/test/scene/test_locale
+ALONE   := $(BUILD)/test/io/output/test_interrupted $(BUILD)/test/app/results/test_durable $(BUILD)/test/app/results/test_killed $(BUILD)/test/scene/test_locale
 BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
 RANKSBIN = $(if $(PETSC),$(patsubst bench/%.c,$(BUILD)/bench/%,$(wildcard bench/ranks/*.c)))
 LIB     := $(BUILD)/libperigal.a
@@ -101,9 +101,9 @@ $(BUILD)/new_scenes.h: $(NEW) .ci/new_scenes Makefile
 	$(Q).ci/new_scenes $(NEW) > $@.new && mv $@.new $@
 $(BUILD)/src/app/cli/new.o: $(BUILD)/new_scenes.h
 $(BUILD)/src/app/cli/new.o: CFLAGS += -I$(BUILD)
-$(BUILD)/src/netcdf/library.o: CFLAGS += $(call soname,NETCDF,netcdf)
+$(BUILD)/src/io/netcdf/library.o: CFLAGS += $(call soname,NETCDF,netcdf)
 $(BUILD)/src/geometry/cloud/search/delaunay.o: CFLAGS += $(call soname,QHULL,qhull_r)
-$(BUILD)/src/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
+$(BUILD)/src/io/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
 
 $(LIB): $(OBJECTS)
 	$(if $(V),,@echo "  AR   $@")
@@ -155,8 +155,8 @@ $(BUILD)/bench/ranks/%: bench/ranks/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g') -MMD -MP -MF $@.d $< $(LDFLAGS) -lfftw3_mpi $(shell pkg-config --libs $(PETSC)) $(LIBS) -o $@
 
-$(BUILD)/src/mpi/%.o: CFLAGS += $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g')
-$(BUILD)/src/mpi/petsc_library.o: CFLAGS += $(call soname,PETSC,$(PETSCLIB))
+$(BUILD)/src/app/mpi/%.o: CFLAGS += $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g')
+$(BUILD)/src/app/mpi/petsc_library.o: CFLAGS += $(call soname,PETSC,$(PETSCLIB))
 $(BUILD)/perigal-mpi: $(MPIOBJ) $(filter-out %/main.o,$(CLIOBJ)) $(LIB)
 	$(if $(V),,@echo "  LD   $@")
 	$(Q)$(CC) $(LDFLAGS) $^ $(shell pkg-config --libs mpi) $(LIBS) -o $@
@@ -249,7 +249,7 @@ accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites the
 
 bench-programs: $(BENCHBIN) $(MPI) $(RANKSBIN)
 # tests that print what doc/accuracy_tables.md shows
-ACCURACY := geometry/cells/test_cut force/test_estimate force/test_rigid_motion scene_runs/test_disk scene_runs/test_incompressible scene_runs/test_mesh scene_runs/test_notch scene_runs/test_uncracked_disk
+ACCURACY := geometry/cells/test_cut mechanics/force/test_estimate mechanics/force/test_rigid_motion scene_runs/test_disk scene_runs/test_incompressible scene_runs/test_mesh scene_runs/test_notch scene_runs/test_uncracked_disk
 
 install: all
 	install -d $(addprefix $(DESTDIR)$(prefix)/,bin lib/pkgconfig include/perigal share/doc/perigal/doc share/man/man1 share/bash-completion/completions)

@@ -1,7 +1,7 @@
 """What consistent integration leaves in cells that the surface of the body cuts, for bench/accuracy: rigid motions, patch tests, bodies of
 known answer, strips and cantilevers of known load on lattices that lie in every way, and what it costs beside Gauss points.
 
-The seeds and offsets here were not among those by which the constants of src/approx/widen.c were chosen.
+The seeds and offsets here were not among those by which the constants of src/discretization/approx/widen.c were chosen.
 """
 import math
 import os
@@ -71,10 +71,10 @@ class Scene:
         return float(rows[-1][[head.split(" [")[0] for head in rows[0]].index(column)])
 
 
-# ---- rigid motions and patch tests: test/force/test_rigid_motion.c -----------------------------------------------------
+# ---- rigid motions and patch tests: test/mechanics/force/test_rigid_motion.c -----------------------------------------------------
 def motions(runner):
     more = {"PERIGAL_TEST_SIZE": "long", "PERIGAL_SEED": str(SEED)}
-    both = [runner.test("force/test_rigid_motion", **more), runner.test("force/test_rigid_motion", GAUSS="1", **more)]
+    both = [runner.test("mechanics/force/test_rigid_motion", **more), runner.test("mechanics/force/test_rigid_motion", GAUSS="1", **more)]
     form = (r"(\d)D body (\d), (\w+), (\d+) lattices\W+translation: median (\S+), worst (\S+)\W+rotation: median (\S+), worst (\S+)"
             r"\W+patch: median (\S+), worst (\S+)")
     found = [re.findall(form, text) for text in both]
@@ -164,5 +164,5 @@ def scene_loads(scene, name):
 
 def cuts(runner, out):
     scene = Scene(runner, out)
-    return (command("PERIGAL_SEED=%d PERIGAL_TEST_SIZE=long build/release/test/force/test_rigid_motion" % SEED)
+    return (command("PERIGAL_SEED=%d PERIGAL_TEST_SIZE=long build/release/test/mechanics/force/test_rigid_motion" % SEED)
             + motions(runner) + cantilever(scene) + fall(scene) + cracks(scene))

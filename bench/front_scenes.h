@@ -8,7 +8,8 @@
  *   surface    a semi-ellipse on the face of a plate in tension: J. C. Newman, I. S. Raju, An empirical
  *              stress-intensity factor equation for the surface crack, Eng. Fract. Mech. 15 (1981) 185-192
  *
- * The field of the penny-shaped crack is that of test/fracture/penny.h, in real numbers. With R1 = A + i B,
+ * The field of the penny-shaped crack is that of test/crack/fracture/penny.h, in real numbers. With R1 =
+ * A + i B,
  * R1^2 = r^2 + (z + i a)^2, P = A + z, Q = B + a, D = P^2 + Q^2, N = A^2 + B^2, the angle w = atan2 (Q, P):
  *
  *   psi = z w - B,  psi,z = w - a A / N,  psi,x / x = (B - z (A Q + B P) / D) / N,

@@ -16,8 +16,8 @@
  * far as half way; `check`: bonds are compared with limits that none reaches. `transforms`: these with their
  * product alone. A `cloud` is made of irregular points with random numbers, whose bonds only a list sums. */
 #include "lattice.h"
-#include "sums/fft_rows.h"
-#include "sums/bond_loop.h"
+#include "mechanics/sums/lattice/fft_rows.h"
+#include "mechanics/sums/terms/bond_loop.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * approx.h: shape functions N and their derivatives at any place, from the points around it
  * that are joined to it by live bonds. It is a catalogue: each approximation is
- * src/approx/<name>.c and one line in list.h.
+ * src/discretization/approx/<name>.c and one line in list.h.
  *
  *   z_j = (x_j - x) / a,   p (z) = (1, z_k [, z_k z_l]),   A = sum_j w_j p_j p_j'
  *   rkpm   N_j = p (0)' A^-1 p_j w_j,   dN_j its exact derivative
@@ -107,7 +107,7 @@ struct pg_approx_type {
     int exact;
     /* How far from where it is drawn the tip of a crack may lie, in spacings: the worst of
      * eight places among the points, for Gauss points with the linear and the quadratic basis,
-     * and for nodal integration (src/model/tips.c). */
+     * and for nodal integration (src/mechanics/model/tips.c). */
     struct { double linear, quadratic, nodal; } tip;
     /* 1: N of a node is 1 at that node and 0 at the others, so that coefficients are
      * displacements. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * force.h: out-of-balance force of a displacement, and what solvers need of it. Catalogue: src/force/<name>.c
+ * force.h: out-of-balance force of a displacement, and what solvers need of it. Catalogue:
+ * src/mechanics/force/<name>.c
  * + list.h. A force owns its fields (displacement; with micropolar models also rotation) and its caches; dofs
  * are numbered node by node. */
 #ifndef PERIGAL_FORCE_H

@@ -189,7 +189,8 @@ typedef struct { int material[2]; double energy, strength; } pg_interface;
 typedef struct { const pg_set *set; pg_expression *value[3]; } pg_initial;
 
 /* What a force tells the model about itself before any of it exists: what it stands on, which keys it reads,
- * what it can carry. Every force has one of these in its own file (src/force/<name>.c). The model asks these
+ * what it can carry. Every force has one of these in its own file (src/mechanics/force/<name>.c). The
+ * model asks these
  * flags and calls these functions; it compares no names. */
 typedef struct {
     const char *name, *summary;
@@ -427,7 +428,8 @@ int       pg_problem_removes     (const pg_problem *problem);          /* 1: som
 /* 1: a load changes in that stage (from 0). */
 int       pg_stage_loads         (const pg_problem *problem, size_t stage);
 
-/* Parts of pg_state_create and of checkpoints: the cracks that a problem begins with; what is kept of them. */
+/* Parts of pg_state_create and of checkpoints: the cracks that a problem begins with, and what of them is
+ * kept. */
 pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *problem);
 pg_status pg_crack_paths_keep   (pg_crack_paths *paths, const pg_problem *problem, const char *name,
                                  const pg_keeper *keeper);

@@ -63,7 +63,7 @@ typedef struct { long moments, keep; } pg_field_marks;
 /* Can processes that divide the points use the writer? Not at all; each leaves a part of its own; or the
  * parts become what one process would have written, where output.join asks for it. */
 enum { PG_PARTS_NONE, PG_PARTS_STAY, PG_PARTS_JOIN };
-/* An entry of the catalogue: src/output/NAME.c and one line in list.h. Functions marked (NULL) may be
+/* An entry of the catalogue: src/io/output/NAME.c and one line in list.h. Functions marked (NULL) may be
  * missing. Whatever ends the run, moments written so far can be read. Failures of files are PG_E_FILE with
  * the path and the reason of the system. */
 typedef struct {

@@ -2,7 +2,7 @@
  * ranks.h: a run that several processes share, each of them a rank (domain decomposition). Every rank holds
  * a subdomain of the body: the points that it owns, and around them ghosts, points of other ranks, as wide
  * a layer as the method sees. This folder says what a subdomain and its halo are and how a lattice is
- * divided; how messages travel is given from outside (pg_ranks_join: src/mpi does it by MPI), so that the
+ * divided; how messages travel is given from outside (pg_ranks_join: src/app/mpi does it by MPI), so that the
  * library knows of no such package. Alone, without ranks, every call here is one that does nothing. */
 #ifndef PERIGAL_RANKS_H
 #define PERIGAL_RANKS_H

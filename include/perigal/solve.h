@@ -228,7 +228,7 @@ pg_tip_values pg_tip_values_of (long id, size_t vertex, const double *x, const p
 typedef struct pg_solver pg_solver;
 struct pg_progress;
 struct pg_moved;                                       /* below: pg_solver_move */
-struct pg_dynamics;                                    /* what a matrix holds besides K: src/solve/solve.h */
+struct pg_dynamics;              /* what a matrix holds besides K: src/solve/run/solve.h */
 
 /* An entry of the catalogue: src/solve/<name>.c. Entries that are NULL: nothing to do, but for `step`. */
 typedef struct {

@@ -5,7 +5,7 @@
  * moment, before main could have set anything.
  *
  * The functions of such a library are pointers in a table. Its users reach them under their own names: a
- * private header (picture/cairo_calls.h, linalg/suitesparse.h, io/mesh_files/netcdf_calls.h) defines
+ * private header (io/picture/cairo_calls.h, linalg/suitesparse.h, io/mesh_files/netcdf_calls.h) defines
  * each name
  * as the entry of the table. The name of the file is the SONAME that the Makefile reads from the library
  * whose header the program was compiled with, so that another version of it is never taken. */

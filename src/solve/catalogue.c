@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The table of solvers, what is true of each, and the keys of a scene that belong to each. */
-#include "solve.h"
+#include "solve/run/solve.h"
 #include <stdio.h>
 #include <string.h>
 

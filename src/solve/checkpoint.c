@@ -3,9 +3,9 @@
  * start of a step in its middle), energies, counts, what a method carries from step to step. Caches are not
  * kept: they are functions of the bonds and the cracks, made again in the same order. The factor of an
  * earlier K is one of them: it is made again from the bonds that lived then, and the cracks of then. */
-#include "contact.h"
-#include "inverse.h"
-#include "facet_growth.h"
+#include "solve/contact/contact.h"
+#include "solve/system/inverse.h"
+#include "solve/growth/facet_growth.h"
 #include <string.h>
 
 static const long most = 1L << 50;                     /* of any count */

@@ -4,7 +4,7 @@
  * knew alike from the first of them, and energies of each process's own points as their sum. A run that ended
  * in the middle of a step begins that step again. Caches are made anew; so is the work balance from which the
  * next work is summed, as its pairs of force and displacement belong to loads of one process. */
-#include "contact.h"
+#include "solve/contact/contact.h"
 #include <stdio.h>
 #include <string.h>
 

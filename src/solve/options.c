@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Options of the solver from the keys of a scene, and what does not go together. */
-#include "contact.h"
-#include "facet_growth.h"
+#include "solve/contact/contact.h"
+#include "solve/growth/facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

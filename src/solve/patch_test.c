@@ -3,7 +3,7 @@
  * be linear. What is measured is that of the body as it is, whatever makes the difference: families cut by
  * the surface, quadrature, modes without energy, rows that bear loads. */
 #include "patch_test_factor.h"
-#include "solve.h"
+#include "solve/run/solve.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
  * Private: equilibria of the patch test by a factor of K (patch_test_factor.c) in place of iterations. */
 #ifndef PG_PATCH_TEST_FACTOR_H
 #define PG_PATCH_TEST_FACTOR_H
-#include "solve.h"
+#include "solve/run/solve.h"
 
 typedef struct patch_factor patch_factor;
 /* A factor of the matrix of a force on the bare problem. NULL in *out: iterations cost less, or the force has

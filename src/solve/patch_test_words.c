@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The patch test of a discretisation in words: how far off it is, what to do about it, when it is refused. */
-#include "solve.h"
+#include "solve/run/solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

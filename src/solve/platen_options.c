@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What does not go together with platens. */
-#include "contact.h"
+#include "solve/contact/contact.h"
 #include <math.h>
 #include <stdio.h>
 

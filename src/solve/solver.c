@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The solver object: steps with refusal, the report of the run. */
-#include "facet_growth.h"
-#include "body_parts.h"
-#include "contact.h"
-#include "trial_facet.h"
+#include "solve/growth/facet_growth.h"
+#include "solve/run/body_parts.h"
+#include "solve/contact/contact.h"
+#include "solve/growth/trial_facet.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

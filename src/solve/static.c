@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Quasi-static equilibria by linear systems. stepping: fixed takes equal load steps, each with the break
  * loop; stepping: event goes from break to break (event_stepping.c). */
-#include "contact.h"
-#include "event_stepping.h"
-#include "facet_growth.h"
+#include "solve/contact/contact.h"
+#include "solve/events/event_stepping.h"
+#include "solve/growth/facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first
  * step. */
 #include "perigal/fracture.h"
-#include "solve.h"
+#include "solve/run/solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-# ---- force/reinforced.c ----
+# ---- mechanics/force/reinforced.c ----
 listed reinforced "bond, stiffer by a factor"
 offered method.force reinforced
 key method.reinforcement "(reinforced) How much stiffer bonds are"

@@ -1,4 +1,4 @@
-# ---- output/plain.c ----
+# ---- io/output/plain.c ----
 listed plain "result.txt: the largest value of each field"
 offered output.format plain
 levels=(--threads 1 --set output.format=plain --set output.at.levels=4 --set solver.stepping=fixed --set solver.steps=4)

@@ -2,7 +2,7 @@
  * Faces of cracks beside other cracks and platens: what pieces remember is their own; faces that nothing
  * keeps apart overlap, and that is told. */
 #include "scene_runs/run.h"
-#include "solve/contact.h"
+#include "solve/contact/contact.h"
 
 /* A block between a held and a moving platen. */
 #define BETWEEN_PLATENS(cracks) \

@@ -3,7 +3,7 @@
  * catalogue and every force with every solver, in 2D: each allocation fails once (the short test: each of the
  * first, then some of the rest). Nothing crashes, nothing is lost, and the status says so. A new entry of a
  * catalogue fails the last test until a scene here uses it. */
-#include "results/folder.h"
+#include "app/results/folder.h"
 #include <unistd.h>
 
 #define BLOCK \

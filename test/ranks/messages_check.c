@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What travels between the processes of mpirun by src/mpi/messages.c: sums, also of more numbers than travel
+ * What travels between the processes of mpirun by src/app/mpi/messages.c: sums, also of more numbers
+ * than travel
  * at a time, maxima, ghosts, lists of ranks of which one has nothing. Run by test_messages.sh; ends with the
  * line of the first check that fails on any rank. */
-#include "mpi/messages.h"
+#include "app/mpi/messages.h"
 #include <mpi.h>
 #include <stdio.h>
 #include <string.h>

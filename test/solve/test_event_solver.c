@@ -3,7 +3,7 @@
  * same bonds in the same order, for every integration, way of prescribing, criterion and kind of load; blocks
  * of events and going back are what equilibria solved anew say. */
 #include "scene_runs/run.h"
-#include "solve/event_solver.h"
+#include "solve/events/event_solver.h"
 
 #define PLATE \
     "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 16 " \

@@ -3,7 +3,7 @@
  * who stays, mirror images, units. */
 #include "check.h"
 #include "perigal.h"
-#include "solve/front_growth.h"
+#include "solve/growth/front_growth.h"
 #include <stdlib.h>
 
 /* A circle of n vertices and radius r, u from a function of the angle; ways by facets of length l. */

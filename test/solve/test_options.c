@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Options of the solver: defaults, what follows from the loads, and what is refused with which words. */
-#include "model/scenes.h"
+#include "mechanics/model/scenes.h"
 
 #define PULLED PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}}]\n"
 #define HELD \

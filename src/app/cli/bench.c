@@ -3,7 +3,7 @@
  * to combine, repeats. Lists of catalogue entries are checked here, so that a misspelt name
  * does not end a benchmark after an hour. The options --row and --fem-row are for the
  * processes that a benchmark starts (trial.c). */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

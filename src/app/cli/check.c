@@ -3,7 +3,7 @@
  * amounts to. The order is that of a run, so that a scene that passes here does not fail
  * there. Nothing is written, except with --spectrum -o DIR
  * and --matrix DIR. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <math.h>
 
 /* --echo: the scene as it was understood, for programs that change scenes. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal check --matrix DIR: the linear system of a scene at load factor 1 as Matrix Market files, which
  * MATLAB, Octave, Python, Julia and others read, for criteria and solvers of one's own. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <errno.h>
 #include <string.h>
 

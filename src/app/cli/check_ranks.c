@@ -3,7 +3,7 @@
  * which points each would hold, its memory, its messages; or the reason for which they would refuse it, in
  * the words of the run. The body is divided as the ranks divide it, part after part, so that scenes that no
  * machine can hold as a whole are answered too. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <math.h>
 #include <stdlib.h>
 

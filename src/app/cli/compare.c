@@ -2,7 +2,7 @@
  * perigal compare DIR [REFERENCE]: a result against the reference of its scene, a table,
  * another result or a finite element result. The command line is read here; study.h opens both
  * sides and measures, compare.h has the norms. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <errno.h>
 #include <getopt.h>
 #include <math.h>

@@ -2,7 +2,7 @@
  * perigal converge: the command line of a study of convergence (study.h): a scene, how many
  * spacings, their ratio, the horizons, and whether the horizon falls with the spacing
  * (--delta, the default) or keeps its length (--m). */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal cracks: the cracks of a scene alone: what they amount to, a picture, and a table that a scene can
  * read again. Nothing is computed, so that a network can be looked at, and its seed chosen, in no time. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include "perigal/picture.h"
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * perigal list and perigal help: what this build holds, and what a key of the scene means.
  * Both read the catalogues and the tables of keys, so that they cannot differ from what the
  * program does: a new entry of a catalogue appears here without another line. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <string.h>
 
 /* The line of description of a catalogue entry; one function per catalogue follows. */

@@ -2,8 +2,8 @@
  * perigal: finds the command and starts it. Numbers of threads of the libraries (OpenBLAS,
  * OpenMP) are set in the environment before these are loaded, which happens when the first
  * matrix is factored (base/library.c). All else is in the files of the commands. */
-#include "cli.h"
-#include "plot.h"
+#include "app/cli/preparation/cli.h"
+#include "app/cli/plots/plot.h"
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal new KIND [-o DIR]: writes a commented scene that runs, with the files that it names. The scenes are
  * those of data/new, which the Makefile turns into build/.../new_scenes.h. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include "new_scenes.h"
 #include <errno.h>
 #include <getopt.h>

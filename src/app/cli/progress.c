@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Progress of a run: how far it is, what is going on, the pace, and the time left where it can
  * be estimated. Everything goes to stderr, so that stdout can be used by programs. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <math.h>
 #include <string.h>
 #include <sys/ioctl.h>

@@ -9,7 +9,7 @@
  *
  * Where ranks share the run (perigal-mpi) each passes through here; rank 0 speaks. What one of them meets
  * between steps is early to all, so that they go on or end together. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

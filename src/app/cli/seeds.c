@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal run SCENE --seeds N: the scene N times, with the seeds 1 to N for everything random in it, and the
  * spread of the peak loads (study.h). Called again it goes on: what is finished is not repeated. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <string.h>
 
 int command_seeds (const command *c)

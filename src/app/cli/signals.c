@@ -3,7 +3,7 @@
  * noted whatever the run is in at that moment, no system call is cut short, and libraries that put handlers
  * of their own in place (METIS for the time of an ordering, PETSc from its start on) do not get them.
  * Commands of many runs count signals instead (stops.c). */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>

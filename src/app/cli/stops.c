@@ -2,7 +2,7 @@
  * Signals that ask a command of many runs to stop: they are counted, and the runs are asked as often. The
  * first one lets them write checkpoints, the second one ends them at once; this process lives on to say
  * what there is. Those that come at once count as one. A single run listens in its own way (signals.c). */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <signal.h>
 #include <string.h>
 #include <time.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal sweep SCENE --set KEY=A,B,C ...: the command line of a sweep (study.h): keys with several values,
  * how they are combined, how many runs at a time, what the table shall have. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * What a process does that perigal bench or perigal converge has started (study.h): one run,
  * or one finite element result, measured; the numbers go to stdout as lines "name value".
  * Users have no need of these two options. */
-#include "cli.h"
+#include "app/cli/preparation/cli.h"
 
 /* --row SCENE -o DIR ...: the words are those of `perigal run`, so argv[0] is changed to its
  * name. Memory is forecast unless the scene fits any machine; the numbers of the trial go to

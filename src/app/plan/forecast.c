@@ -117,9 +117,10 @@ const char *pg_forecast_item (int item)
 
 /* Bytes follow from counts: 8 for each number, 4 for each neighbour, as the structures named beside them
  * hold. They are upper bounds within some 20 %, checked against the peak of whole runs
- * (test/results/test_memory.c). */
+ * (test/app/results/test_memory.c). */
 
-/* Where points of a lattice share their rows (force/galerkin_rows.c): different rows at most, as counted on
+/* Where points of a lattice share their rows (mechanics/galerkin/weak_form/galerkin_rows.c): different
+ * rows at most, as counted on
  * blocks and bodies with holes, and bonds of a part that is evaluated at a time. */
 static const double most_different = 4000, part = 5e5;
 

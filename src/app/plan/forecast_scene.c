@@ -85,7 +85,8 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 
-/* Do points of a lattice share their rows (force/galerkin_rows.c), as far as points and cracks allow? */
+/* Do points of a lattice share their rows (mechanics/galerkin/weak_form/galerkin_rows.c), as far as
+ * points and cracks allow? */
 static int shares_rows (const pg_forecast *f, const pg_scene *scene)
 {
     if (!f->method->shape_functions || pg_scene_bool (scene, "solver.plain")) return 0;

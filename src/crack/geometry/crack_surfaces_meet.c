@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What lies ahead of a vertex of a front in space: the surface of the body, a crack, another front. As in the
- * plane (solve/facet_place.c), a vertex that would end within 1.5 spacings of the surface goes straight on
+ * plane (solve/growth/facet_place.c), a vertex that would end within 1.5 spacings of the surface goes
+ * straight on
  * into it, for there is no room any more for integrals around it; one that would end within 0.6 spacings of a
  * crack, or of a front, goes there. */
 #include "crack_surfaces.h"

@@ -2,7 +2,7 @@
  * A crack grows where the energy that a new piece of it sets free reaches what it takes (Griffith 1921):
  * G0 per area in opening, G_II in sliding, each its own for every material or an expression of place
  * (energies also of the direction of growth). This criterion judges tips, not bonds: it holds the limits, and
- * solve/facet_growth.c compares them with J. With a strength cracks also begin where there is none
+ * solve/growth/facet_growth.c compares them with J. With a strength cracks also begin where there is none
  * (Leguillon 2002: stress and energy together): tension and G0, or, with a cohesion, the shear stress of
  * Coulomb and G_II. */
 #include "entries.h"

@@ -33,7 +33,7 @@ report "every scene of data/ is right" "$(for s in data/*/scene*.yaml; do right 
 report "every scene of data/ has a README" "$(for s in data/*/; do [ -e "$s/README.md" ] || echo "$s"; done)"
 report "the scene in README.md is the one of the demo" "$(diff <(sed -n '/^```yaml/,/^```/p' README.md | grep -v '^```' | sed 's/  *#.*//') \
     <(grep -v '^#' data/disk_crack/scene.yaml | sed 's/  *#.*//'))"
-report "keys of report.json are those of doc/output.md" "$(for key in $(grep -oE 'pg_json_[a-z]+ \(j, "[a-z_0-9]+"' src/results/json.c | cut -d'"' -f2); do
+report "keys of report.json are those of doc/output.md" "$(for key in $(grep -oE 'pg_json_[a-z]+ \(j, "[a-z_0-9]+"' src/app/results/json.c | cut -d'"' -f2); do
     grep -q "\b$key\b" doc/output.md || echo "$key"; done)"
 echo "1..$n"
 exit $bad

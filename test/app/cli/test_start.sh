@@ -5,7 +5,7 @@ cd "$(dirname "$0")" || exit 1
 case $1 in *release) ;; *) echo "ok 1 - skipped: a linker of another build may keep what nobody calls"; exit 0 ;; esac
 
 # Libraries that the program itself asks for. A function of BLAS, CHOLMOD, UMFPACK, cairo or netCDF that is called directly brings its library in
-# again: it belongs into the table of linalg/suitesparse.h or picture/cairo_calls.h.
+# again: it belongs into the table of linalg/suitesparse.h or io/picture/cairo_calls.h.
 asked=$(readelf -d "$perigal" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
 ! grep -E 'cholmod|umfpack|openblas|blas|lapack|cairo|netcdf|gomp' <<< "$asked"; verdict "large libraries are not loaded at the start" $?
 [ "$(ldd "$perigal" | wc -l)" -lt 16 ]; verdict "few libraries are" $?

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Finite element results as samplers and references: linear fields exact, solid plates made plane, places
  * outside, norms on the elements. */
-#include "results/folder.h"
+#include "app/results/folder.h"
 #include "perigal/study.h"
 #include <math.h>
 

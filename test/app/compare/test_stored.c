@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Result folders opened again: their fields are those of the run that wrote them, by its own shape functions;
  * least squares where that cannot be; --set options, files beside the scene, damage. */
-#include "results/folder.h"
+#include "app/results/folder.h"
 #include <unistd.h>
 
 static char folder[64], path[160];

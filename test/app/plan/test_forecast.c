@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include "model/scenes.h"
+#include "mechanics/model/scenes.h"
 #include "perigal/linalg.h"
 #include "perigal/plan.h"
 
@@ -505,5 +505,5 @@ int main (void)
         LEFT (test_first_version_groups),
         cmocka_unit_test (test_this_machine),
     };
-    return cmocka_run_group_tests_name ("model/forecast", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("mechanics/model/forecast", tests, NULL, NULL);
 }

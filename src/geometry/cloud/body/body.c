@@ -123,15 +123,13 @@ done:
 }
 
 /* The shapes, what the slots of the cracks take from them, and the layers. */
-static pg_status read_body (pg_body *out, const pg_scene *scene, const pg_cracks *cracks)
+pg_status pg_body_read_cut (pg_body *out, const pg_scene *scene, size_t slots, pg_shape *slot)
 {
     pg_status status = PG_OK;
-    size_t slots = cracks ? crack_slot_count (cracks) : 0;
     PG_TRY (read_shapes (out, scene, slots));
-    out->n += slots;
-    if (slots) PG_TRY (crack_slot_shapes (out->shape + out->n - slots, cracks));
-    for (size_t i = out->n - slots; i < out->n; i++) {
-        pg_shape *s = &out->shape[i];
+    for (size_t i = 0; i < slots; i++) {
+        pg_shape *s = &out->shape[out->n++];
+        *s = slot[i], slot[i] = (pg_shape) { 0 };
         pg_shape_types[s->kind].box (s, out->dim, s->box, s->box + 3);
     }
     PG_TRY (pg_layers_read (out, scene));
@@ -141,18 +139,9 @@ done:
     return status;
 }
 
-pg_status pg_body_read_uncut (pg_body *out, const pg_scene *scene) { return read_body (out, scene, NULL); }
-
-pg_status pg_body_read (pg_body *out, const pg_scene *scene)
+pg_status pg_body_read_uncut (pg_body *out, const pg_scene *scene)
 {
-    pg_status status = PG_OK;
-    pg_cracks cracks = { 0 };
-    memset (out, 0, sizeof *out);
-    if (crack_slots_given (scene)) PG_TRY (crack_read_all (&cracks, scene));
-    PG_TRY (read_body (out, scene, &cracks));
-done:
-    pg_cracks_clear (&cracks);
-    return status;
+    return pg_body_read_cut (out, scene, 0, NULL);
 }
 
 /* Frees what a body holds and zeroes it, also where it was read in part only. */

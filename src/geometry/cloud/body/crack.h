@@ -61,6 +61,7 @@ int       crack_slots_given (const pg_scene *scene);
 
 /* Everything that `cracks` gives, sharp cracks and slots. */
 pg_status crack_read_all (pg_cracks *out, const pg_scene *scene);
-/* The body without its slots. */
+/* The body without its slots; with these shapes (n, taken over) subtracted. */
 pg_status pg_body_read_uncut (pg_body *out, const pg_scene *scene);
+pg_status pg_body_read_cut (pg_body *out, const pg_scene *scene, size_t slots, pg_shape *slot);
 #endif

@@ -178,3 +178,5 @@ pg_status crack_slot_ellipse (pg_crack *c, const double *centre, double len, dou
     }
     return crack_outline (c, CRACK_CORNERS, vertex, why);
 }
+
+int pg_crack_is_slot (const pg_crack *crack) { return crack->slot > 0 || crack->kind == PG_CRACK_OUTLINE; }

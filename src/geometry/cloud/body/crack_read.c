@@ -299,4 +299,22 @@ pg_status pg_slots_read (pg_cracks *out, const pg_scene *scene)
     return crack_slots_given (scene) ? read_some (out, scene, 1) : PG_OK;
 }
 
-int pg_crack_is_slot (const pg_crack *crack) { return crack->slot > 0 || crack->kind == PG_CRACK_OUTLINE; }
+/* The body without what the slots among its cracks take from it. */
+pg_status pg_body_read (pg_body *out, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_cracks cracks = { 0 };
+    pg_shape *slot = NULL;
+    size_t n = 0;
+    memset (out, 0, sizeof *out);
+    if (crack_slots_given (scene)) PG_TRY (crack_read_all (&cracks, scene));
+    n = crack_slot_count (&cracks);
+    if (n) PG_ALLOC (slot, n);
+    if (n) PG_TRY (crack_slot_shapes (slot, &cracks));
+    PG_TRY (pg_body_read_cut (out, scene, n, slot));
+done:
+    for (size_t i = 0; slot && i < n; i++) pg_free (slot[i].vertex);
+    pg_free (slot);
+    pg_cracks_clear (&cracks);
+    return status;
+}

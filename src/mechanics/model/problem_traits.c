@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What is true of a problem: whether its cracks grow, how its loads depend on time; and remarks on it. */
+#include "model.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Is a limit given for all materials, or for one? */
+static int limit_given (const pg_problem *p, const pg_scene *scene, const char *limit)
+{
+    int given = pg_scene_given (scene, "failure.%s", limit);
+    for (size_t m = 0; m < p->nmaterial; m++)
+        given |= pg_scene_given (scene, "materials.%s.failure.%s", p->material[m].name, limit);
+    return given;
+}
+
+/* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives:
+ * with an energy tips are judged where that can be, unless the scene says how bonds break; in space only if
+ * it says facet. */
+const char *pg_problem_usual_criterion (const pg_problem *p, const pg_scene *scene)
+{
+    if (p->method->judged_by) return pg_criterion_by_need (p->method->judged_by);
+    int energy = pg_scene_given (scene, "failure.fracture_energy"),
+        how = pg_scene_given (scene, "solver.break"),
+        facets = how ? strcmp (pg_scene_text (scene, "solver.break"), "facet") == 0 : p->dim == 2,
+        tips = p->dim > 1 && facets && p->method->shape_functions && (p->method->shows & PG_NEEDS_FACETS)
+               && pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_FACETS)
+               && pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
+    if (tips && limit_given (p, scene, "fracture_energy")) return pg_criterion_by_need (PG_NEEDS_FACETS);
+    return energy || pg_scene_given (scene, "failure.critical_stretch")
+               ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
+}
+
+int pg_problem_by_facets (const pg_problem *p, const pg_scene *scene)
+{
+    int given = pg_scene_given (scene, "failure.criterion");
+    const char *named = given ? pg_scene_text (scene, "failure.criterion")
+                              : pg_problem_usual_criterion (p, scene);
+    const pg_criterion_type *type = named ? pg_criterion_find (named) : NULL;
+    return type && (type->needs & PG_NEEDS_FACETS);
+}
+
+/* The last ones are dropped when there are too many. */
+void pg_problem_note (pg_problem *p, const char *format, ...)
+{
+    va_list args;
+    if (p->nnote == sizeof p->note / sizeof *p->note) return;
+    va_start (args, format);
+    vsnprintf (p->note[p->nnote++], sizeof *p->note, format, args);
+    va_end (args);
+}
+
+/* Cracks are lines in two dimensions and surfaces in three: a criterion of facets makes them larger. */
+int pg_problem_grows (const pg_problem *p)
+{
+    return p->dim >= 2 && p->criterion && p->criterion->type && (p->criterion->type->needs & PG_NEEDS_FACETS);
+}
+
+/* Are all loads proportional to t, u = t u_1 and F = t F_1? Event stepping then scales one solution
+ * (solve/events/event_stepping.c). A load given as an expression may be so without saying; a
+ * displacement held at zero is in any case, which is tried at three places and three times that no formula
+ * vanishes at by design. */
+int pg_problem_proportional (const pg_problem *p)
+{
+    if (p->nstage || pg_problem_strained (p)) return 0;
+    for (size_t i = 0; i < p->nload; i++) {
+        if (p->load[i].proportional) continue;
+        /* a displacement held at zero is proportional too */
+        static const double places[3][3] = { { 0.37, -0.21, 0.83 },
+                                             { -1.3, 2.7, 0.11 },
+                                             { 5.1, 0.77, -3.9 } };
+        int held = pg_load_prescribes (&p->load[i]) || p->load[i].kind == PG_SPRING;
+        for (int k = 0; k < pg_load_components (&p->load[i], p->dim) && held; k++)
+            for (int q = 0; q < 9 && held; q++)
+                held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
+        if (!held) return 0;
+    }
+    return 1;
+}
+
+/* Does component k of the load at this place follow a straight line between t = 0 and 1? Asked at fifteen
+ * times and at the corners of a table, to rounding. */
+static int is_affine (const pg_load *load, int k, int dim, const double *x)
+{
+    double a = pg_load_value (load, k, dim, x, 0), b = pg_load_value (load, k, dim, x, 1),
+           size = fmax (fabs (a), fabs (b));
+    for (int q = 1; q < 16; q++) {
+        double t = q / 16.0 + 0.01;
+        if (fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size) return 0;
+    }
+    for (size_t row = 0; row < load->ntable; row++) {
+        double t = load->table[2 * row];
+        if (t > 0 && t < 1 && fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size)
+            return 0;
+    }
+    return 1;
+}
+
+/* Do all loads follow a + b t between t = 0 and 1? Event stepping then scales the difference of two
+ * solutions. A load whose place and time factors are apart is asked at one place, others at every point
+ * of their set. */
+int pg_problem_affine (const pg_problem *p)
+{
+    if (pg_problem_strained (p)) return 0;             /* equilibria after breaks do not know free strains */
+    if (p->nstage) return 1;                           /* each of them is so by itself */
+    double middle[3] = { 0 };
+    for (int k = 0; k < p->dim; k++) middle[k] = 0.37 * p->cloud.low[k] + 0.63 * p->cloud.high[k];
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        int components = load->kind == PG_PRESSURE ? 1 : pg_load_components (load, p->dim);
+        size_t n = pg_load_separates (load) ? 0 : load->set->npoint;
+        for (int k = 0; k < components; k++) {
+            if (!is_affine (load, k, p->dim, middle)) return 0;
+            for (size_t i = 0; i < n; i++)
+                if (!is_affine (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim))
+                    return 0;
+        }
+    }
+    return 1;
+}

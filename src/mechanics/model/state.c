@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The state: displacement coefficients, velocity, acceleration, alive bits, in one block; and its cracks,
+ * which grow, in memory of their own: paths in the plane (crack_paths.c), surfaces in space
+ * (crack_surfaces.c). */
+#include "model.h"
+#include <string.h>
+
+/* The arrays lie behind the struct, each after the other, so that one copy takes all: d, v, a (ndof
+ * each), then the alive bits (nbond bytes). */
+static void place (pg_state *s)
+{
+    char *base = (char *) s + (sizeof *s + 63) / 64 * 64;
+    s->d = (double *) (void *) base;
+    s->v = s->d + s->ndof;
+    s->a = s->v + s->ndof;
+    s->alive = (unsigned char *) (s->a + s->ndof);
+}
+
+/* Places that lie nearer to each other than this are one, m. */
+static double nothing_of (const pg_problem *p) { return PG_NO_LENGTH * p->cloud.h; }
+
+pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
+{
+    return pg_paths_of (out, &p->cracks, p->tip, p->ntip, nothing_of (p));
+}
+
+pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *p)
+{
+    return pg_surfaces_of (out, &p->cracks, p->front, p->nfront, nothing_of (p));
+}
+
+/* A facet has cut one bond at least. A vertex of a surface has cut some bond, or lies beside one that has:
+ * there are not more than a hundred for each bond. */
+pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const char *name, const pg_keeper *k)
+{
+    return pg_paths_keep (w, (long) (p->cracks.n + p->ntip + p->first_bond[PG_BOND_SETS]), name, k);
+}
+
+pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, const char *name,
+                                  const pg_keeper *k)
+{
+    return pg_surfaces_keep (w, 1000 + 100 * (long) (p->cracks.n + p->first_bond[PG_BOND_SETS]), name, k);
+}
+
+/* One block of memory; pre-cracks cut their bonds, points have the velocity that the scene gives them.
+ * Solvers with unknowns of their own (components) begin at rest. */
+pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components)
+{
+    pg_status status = PG_OK;
+    size_t ndof = problem->cloud.n * (size_t) components, nbond = problem->first_bond[PG_BOND_SETS];
+    size_t bytes = (sizeof (pg_state) + 63) / 64 * 64 + 3 * ndof * sizeof (double) + nbond;
+    pg_state *s = pg_calloc (bytes, 1);
+    if (!s) PG_FAIL (PG_E_MEMORY, "no memory for a state of %zu bytes", bytes);
+    s->ndof = ndof, s->nbond = nbond, s->bytes = bytes;
+    place (s);
+    if (problem->dim == 2) PG_TRY (pg_crack_paths_create (&s->paths, problem));
+    if (problem->dim == 3 && pg_problem_grows (problem))
+        PG_TRY (pg_crack_surfaces_create (&s->surfaces, problem));
+    pg_bonds_cut (problem, s->alive);
+    if (components == pg_problem_unknowns (problem)) pg_initial_set (problem, s->v);
+    *out = s;
+    s = NULL;
+done:
+    pg_state_free (&s);
+    return status;
+}
+
+/* Copies the paths and surfaces, which may fail, and then the first bytes of the block: all of it, or all
+ * before the alive bits. Both states must be of one problem. */
+static pg_status copy_bytes (pg_state *to, const pg_state *from, size_t bytes)
+{
+    pg_status status = PG_OK;
+    pg_crack_paths *paths = to->paths;
+    pg_crack_surfaces *surfaces = to->surfaces;
+    if (to->ndof != from->ndof || to->nbond != from->nbond || !paths != !from->paths
+        || !surfaces != !from->surfaces)
+        PG_FAIL (PG_E_USAGE, "the states belong to different problems");
+    if (paths) PG_TRY (pg_crack_paths_copy (paths, from->paths));
+    if (surfaces) PG_TRY (pg_crack_surfaces_copy (surfaces, from->surfaces));
+    memcpy (to, from, bytes);
+    place (to);
+    to->paths = paths, to->surfaces = surfaces;
+done:
+    return status;
+}
+
+pg_status pg_state_copy (pg_state *to, const pg_state *from) { return copy_bytes (to, from, from->bytes); }
+
+pg_status pg_state_copy_fields (pg_state *to, const pg_state *from)
+{
+    return copy_bytes (to, from, (size_t) (from->alive - (const unsigned char *) from));
+}
+
+void pg_state_free (pg_state **state)
+{
+    if (*state) pg_crack_paths_free (&(*state)->paths), pg_crack_surfaces_free (&(*state)->surfaces);
+    pg_free (*state), *state = NULL;
+}

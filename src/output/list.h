@@ -1,4 +1,0 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later
- * One line per writer of fields: src/output/<name>.c ends in `const pg_writer pg_writer_<name>`. */
-PG_WRITER (exodus)
-PG_WRITER (vtk)
