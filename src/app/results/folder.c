@@ -366,3 +366,31 @@ void pg_result_drop_finished_ranks (const char *folder)
     snprintf (path, sizeof path, "%s/ranks", folder);
     rmdir (path);
 }
+
+/* ---- files and names ----------------------------------------------------------------------------------- */
+const char *pg_result_path (const pg_result *r, const char *name, char *out, size_t size)
+{
+    snprintf (out, size, "%s/%s", r->folder, name);
+    return out;
+}
+
+/* Removes a file of the folder; one that is missing is no failure. */
+pg_status pg_result_remove (const pg_result *r, const char *name)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    snprintf (path, sizeof path, "%s/%s", r->folder, name);
+    if (remove (path) != 0 && errno != ENOENT)
+        PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
+done:
+    return status;
+}
+
+/* The order of doc/notation.md. */
+const char *pg_result_voigt (int dim, int k)
+{
+    static const char *const part[4][6] = {
+        { "" }, { "xx" }, { "xx", "yy", "xy" }, { "xx", "yy", "zz", "xy", "yz", "zx" }
+    };
+    return part[dim][k];
+}

@@ -401,3 +401,5 @@ done:
     if (j) pg_json_close (&j);
     return status;
 }
+
+const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }

@@ -6,15 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The order of doc/notation.md. */
-const char *pg_result_voigt (int dim, int k)
-{
-    static const char *const part[4][6] = {
-        { "" }, { "xx" }, { "xx", "yy", "xy" }, { "xx", "yy", "zz", "xy", "yz", "zx" }
-    };
-    return part[dim][k];
-}
-
 /* The component that "stress.xx" names (dot: ".xx"); -1 for the size of a vector, -2 if there
  * is no such component. */
 static int part_of (const char *dot, int dim, int components)

@@ -62,24 +62,6 @@ done:
     return status;
 }
 
-const char *pg_result_path (const pg_result *r, const char *name, char *out, size_t size)
-{
-    snprintf (out, size, "%s/%s", r->folder, name);
-    return out;
-}
-
-/* Removes a file of the folder; one that is missing is no failure. */
-pg_status pg_result_remove (const pg_result *r, const char *name)
-{
-    pg_status status = PG_OK;
-    char path[4096];
-    snprintf (path, sizeof path, "%s/%s", r->folder, name);
-    if (remove (path) != 0 && errno != ENOENT)
-        PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
-done:
-    return status;
-}
-
 /* What new and resumed results have in common. length is that of a step in the time of fields:
  * quasi-static loads run from 0 to 1, others to solver.end in s. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
@@ -303,8 +285,6 @@ static pg_status estimate (pg_result *r, const pg_state *state)
     pg_solver_warn (r->solver, "the error of the stress could not be estimated: %.160s", pg_last_error ());
     return PG_OK;
 }
-
-const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
 
 /* Everything that the run leaves is on the disk before the checkpoint goes, from which it could be had again.
  * A run that has none, since it was short, waits for no disk. */
