@@ -82,10 +82,10 @@ static pg_status measure (const closed_case *c, tally *t, int show)
     for (size_t k = 0; show && k < n; k++)
         printf ("#   piece at %.3f a: pressure %.4g, shear %.4g, gap %.3g, slip %.4g\n",
                 v[k].arc / c->unit, v[k].pressure, v[k].shear[0], v[k].gap, v[k].slip[0]);
-    t->overlap = fmax (t->overlap, r->contact_overlap / slip);
-    t->between = fmax (t->between, r->overlap_max / slip);
-    t->factor += r->seconds[PG_SECONDS_FACTOR], t->contact += r->contact_seconds;
-    t->open += r->contact_open, t->stick += r->contact_stick, t->pieces += r->contact_pieces;
+    t->overlap = fmax (t->overlap, r->contact.overlap / slip);
+    t->between = fmax (t->between, r->contact.overlap_max / slip);
+    t->factor += r->seconds[PG_SECONDS_FACTOR], t->contact += r->contact.seconds;
+    t->open += r->contact.open, t->stick += r->contact.stick, t->pieces += r->contact.pieces;
     t->points = (long) problem->cloud.n, t->runs++;
 done:
     pg_state_free (&state), pg_solver_free (&solver), pg_problem_free (&problem), pg_scene_free (&scene);

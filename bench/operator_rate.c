@@ -75,9 +75,9 @@ done:
 /* Bonds of the evaluation points: of cells with Gauss points those of the points, else those of nodes. */
 static double bonds_of (const pg_problem *p)
 {
-    if (p->consistency) return (double) p->consistency->family.start[p->consistency->family.n];
-    return (double) (p->integration->at_nodes ? p->first_bond[PG_NODES + 1] - p->first_bond[PG_NODES]
-                                              : p->first_bond[PG_POINTS + 1] - p->first_bond[PG_POINTS]);
+    if (p->form.consistency) return (double) p->form.consistency->family.start[p->form.consistency->family.n];
+    return (double) (p->form.integration->at_nodes ? p->bonds.first[PG_NODES + 1] - p->bonds.first[PG_NODES]
+                                              : p->bonds.first[PG_POINTS + 1] - p->bonds.first[PG_POINTS]);
 }
 
 /* One scene: builds it, multiplies, prints its row. Takes over the scene. */

@@ -250,7 +250,7 @@ static pg_status run_case (const wing_case *c, int show)
     printf ("%g,%g,%g,%s,%d,%.4f,%.2f,%.2f,%.4f,%.4f,%.4f,%d,%.1f,%d,%.4f,%.2f,%.2f\n", c->degrees,
             c->friction, c->confinement, lattice_names[c->lattice], event, t.first, t.kink[0], t.kink[1],
             t.n ? t.sum / t.n : NAN, t.least, t.most, t.n, t.turn, t.falls,
-            r->energy_dissipated / r->energy_fracture,
+            r->energy.dissipated / r->energy.fracture,
             fmax (state->paths->tip[0].grown, state->paths->tip[1].grown), seconds / event);
     fflush (stdout);
 done:

@@ -274,6 +274,66 @@ typedef struct pg_intact {
     struct pg_assembly *K;
     int wanted;
 } pg_intact;
+/* ---- parts of a problem -------------------------------------------------------------------------------- */
+/* The cracks that a problem begins with. */
+typedef struct {
+    pg_cracks given, slots;  /* of the scene; slots cut bonds and have no tips */
+    pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
+    pg_front *front;  size_t nfront;                   /* 3D: the fronts of the pre-cracks */
+    /* Distance behind a tip from which its crack cuts, where the spacing is cloud.h, m; of a tip whose faces
+     * touch (pg_tip_draw_back). */
+    double   tip_offset, closed_tip_offset;
+    struct pg_body_search *search;                     /* where the body is; NULL: nobody asks */
+    size_t   eroded;                                   /* points that lie on a pre-crack */
+} pg_start_cracks;
+/* Stiffness and limits that are expressions of place (laws.c). law_of: which of the nlaw elastic laws holds
+ * at each point, limit_of: which of the nlimit criteria. Where nothing varies they are material, nmaterial
+ * and block, criterion, nmaterial and block of the problem themselves. */
+typedef struct {
+    pg_material  *law;    size_t nlaw;    int *law_of[PG_BOND_SETS];
+    pg_criterion *limit;  size_t nlimit;  int *limit_of[PG_BOND_SETS];
+    pg_variation *vary;                                /* per material; NULL: all are numbers */
+    pg_interface *interface; size_t ninterface;        /* failure.interfaces */
+} pg_point_laws;
+/* The approximation of the displacement, and where the weak form is evaluated. */
+typedef struct {
+    pg_approx approx;
+    const pg_integration_type *integration;
+    pg_consistency *consistency;                       /* integration: consistent; else NULL */
+    /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
+    pg_patches *patches;
+} pg_discretization;
+/* What acts on the body, what holds it, what is measured of it. */
+typedef struct {
+    pg_load *load;   size_t nload;
+    pg_platen *platen; size_t nplaten;
+    pg_stage *stage; size_t nstage;                    /* none: one path, t from 0 to 1 */
+    pg_gauge *gauge; size_t ngauge;
+    pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
+    pg_initial *motion;  size_t nmotion;               /* velocities of sets in its place; later ones count */
+} pg_loading;
+/* The bond sets: which nodes their points see, by geometry alone. */
+typedef struct {
+    pg_rows  rows[PG_BOND_SETS];                       /* N, dN, w, grade are NULL */
+    int      wide_at_cracks;  /* 1: cracks make supports of nodes or evaluation points wider */
+    pg_held_points held[PG_BOND_SETS];                 /* of ranks that share the body; else NULL */
+    double  *facet_normal;  /* outward unit normal at the points of PG_FACETS (n x dim) */
+    size_t   first[PG_BOND_SETS + 1];                  /* bond b of set k is alive[first[k] + b] */
+    double  *spacing[PG_BOND_SETS];  /* local spacing of every point (its nearest node's), m; NULL: h */
+    unsigned char *exempt[PG_BOND_SETS];  /* per point: its bonds never break (failure: exclude, never) */
+    int      facet_order;                              /* points per direction of a boundary facet */
+} pg_bond_points;
+/* How good the discretisation is. */
+typedef struct {
+    int      thickness_assumed;  /* 1: cloud.thickness is not that of the scene, but 1 */
+    int      accept_inexact;  /* method.accept_inexact: no measured patch error is too large */
+    struct pg_intact *intact;  /* shape functions of the intact body; NULL: nobody has evaluated them */
+    pg_patch patch;  /* how well the discretisation carries uniform stress */
+    /* bare: per facet, bit k: a support on points bears component k (pg_patch_probe); else NULL */
+    unsigned char *borne;
+} pg_quality;
+/* What the plan says: keys without meaning, constants taken otherwise. */
+typedef struct { char text[16][224];  size_t n; } pg_notes;
 struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
@@ -282,61 +342,26 @@ struct pg_problem {
     pg_mode  mode;
     pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file */
     pg_between *between;                               /* what parts the points; NULL: nothing does */
-    pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
-    pg_cracks  slots;                                  /* of the scene: they cut bonds and have no tips */
+    pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;
+    pg_start_cracks crack;
     pg_material  *material;  size_t nmaterial;
     pg_criterion *criterion;  /* per material, all of one type; type NULL: nothing breaks */
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set */
-    /* Stiffness and limits that are expressions of place (laws.c). law_of: which of the nlaw elastic laws
-     * holds at each point, limit_of: which of the nlimit criteria. Where nothing varies they are material,
-     * nmaterial and block, criterion, nmaterial and block themselves. */
-    pg_material  *law;    size_t nlaw;    int *law_of[PG_BOND_SETS];
-    pg_criterion *limit;  size_t nlimit;  int *limit_of[PG_BOND_SETS];
-    pg_variation *vary;                                /* per material; NULL: all are numbers */
-    pg_interface *interface; size_t ninterface;        /* failure.interfaces */
-    pg_approx     approx;
-    pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
-    pg_front *front;  size_t nfront;                   /* 3D: the fronts of the pre-cracks */
-    double   closed_tip_offset;  /* tip_offset of a tip whose faces touch (pg_tip_draw_back), m */
-    /* distance behind a tip from which its crack cuts, where the spacing is cloud.h, m */
-    double   tip_offset;
-    struct pg_body_search *search;                     /* where the body is, 2D; else NULL */
-    const pg_integration_type *integration;
-    pg_consistency *consistency;                       /* integration: consistent; else NULL */
-    /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
-    pg_patches *patches;
+    pg_point_laws at;                                  /* laws of the points */
+    pg_discretization form;
     const pg_method *method;                           /* the force, as the scene asks for it */
     const pg_method *const *methods;                   /* all there are; ends with NULL */
     void    *options;                                  /* what method->read made of the keys; NULL: nothing */
     pg_sums *sums;                                     /* without shape functions; else NULL */
-    pg_load *load;   size_t nload;
-    pg_platen *platen; size_t nplaten;
-    pg_stage *stage; size_t nstage;                    /* none: one path, t from 0 to 1 */
-    pg_gauge *gauge; size_t ngauge;
-    pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
-    pg_initial *motion;  size_t nmotion;               /* velocities of sets in its place; later ones count */
-    pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL */
-    int      wide_at_cracks;  /* 1: cracks make supports of nodes or evaluation points wider */
-    pg_held_points held[PG_BOND_SETS];                 /* of ranks that share the body; else NULL */
-    double  *facet_normal;  /* outward unit normal at the points of PG_FACETS (n x dim) */
-    size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b] */
-    double  *spacing[PG_BOND_SETS];  /* local spacing of every point (its nearest node's), m; NULL: h */
-    unsigned char *exempt[PG_BOND_SETS];  /* per point: its bonds never break (failure: exclude, never) */
-    int      facet_order;                              /* points per direction of a boundary facet */
-    int      thickness_assumed;  /* 1: cloud.thickness is not that of the scene, but 1 */
-    int      accept_inexact;  /* method.accept_inexact: no measured patch error is too large */
-    struct pg_intact *intact;  /* shape functions of the intact body; NULL: nobody has evaluated them */
-    pg_patch patch;  /* how well the discretisation carries uniform stress */
-    /* bare: per facet, bit k: a support on points bears component k (pg_patch_probe); else NULL */
-    unsigned char *borne;
-    size_t   eroded;                                   /* points that lie on a pre-crack */
-    /* what the plan says: keys without meaning, constants taken otherwise */
-    char     note[16][224];  size_t nnote;
+    pg_loading boundary;
+    pg_bond_points bonds;
+    pg_quality quality;
+    pg_notes notes;
 };
 /* 1: the point of the bond set is owned by this rank, or there are no ranks. */
 static inline int pg_problem_owns (const pg_problem *p, int set, size_t point)
 {
-    return !p->held[set].owned || p->held[set].owned[point];
+    return !p->bonds.held[set].owned || p->bonds.held[set].owned[point];
 }
 /* A remark on the scene, as printf. One that begins with PG_WARNING counts among the warnings of the run
  * (pg_solver_doubts), others among its notes (pg_solver_note). At most 16 are kept. */
@@ -369,11 +394,11 @@ double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);
 /* The elastic law and the criterion of a point of a set. */
 static inline const pg_material *pg_problem_law (const pg_problem *p, int set, size_t point)
 {
-    return &p->law[p->law_of[set][point]];
+    return &p->at.law[p->at.law_of[set][point]];
 }
 static inline const pg_criterion *pg_problem_limit (const pg_problem *p, int set, size_t point)
 {
-    return &p->limit[p->limit_of[set][point]];
+    return &p->at.limit[p->at.limit_of[set][point]];
 }
 /* 1: the stiffness of a material is an expression of place. */
 int       pg_problem_graded (const pg_problem *problem);

@@ -125,39 +125,53 @@ enum {
     PG_SECONDS_COUNT
 };
 typedef struct { char what[96], why[160]; double seconds_saved; } pg_skip;
-typedef struct {                                       /* of the run so far */
-    long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;
-    long   preconditioners;                            /* made (multilevel) */
-    size_t cg_iterations, degenerate_points, isolated_nodes, fragments, unended_cells;
-    double degenerate_at[3];                           /* where the first of degenerate_points is, m */
-    double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
-    /* What loads, reactions, inertia and damping miss of balance: the largest sum of forces over that of
-     * their sizes, of moments over that times the body's diagonal; in how many states (0: not measured). */
-    double balance_force, balance_moment;
-    long   balances;
-    /* J; dissipated: by breaking, the rest */
-    double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;
-    double energy_contact;                             /* J: stored by short-range contact */
-    double energy_friction;                            /* J: of it, by friction of crack faces */
-    /* Contact of crack faces, in the state last solved for: pieces, and how they stand; passes and sweeps
-     * that this took; largest overlap of a mean gap over the run, m */
-    /* of contact: right-hand sides for the compliance of pieces, dense solves, changes of status on the way,
-     * all of the run; seconds of them */
-    long   contact_columns, contact_solves, contact_changes;
-    double contact_seconds;
-    long   contact_pieces, contact_open, contact_stick, contact_sliding, contact_passes, contact_sweeps;
-    double contact_overlap;
-    /* Short-range contact in the last state: pairs without a bond that are near each other; that touch. */
-    long   contact_pairs, contact_touching;
-    double energy_fracture;  /* J: what cracks that grew should have taken: fracture energy times new area */
-    double seconds[PG_SECONDS_COUNT];
+/* ---- parts of the report of a run ---------------------------------------------------------------------- */
+/* J; external work, damping, what breaking dissipated, what cracks that grew should have taken (fracture
+ * energy times new area) so far; strain and kinetic energy and that of short-range contact now; what friction
+ * of crack faces has taken. */
+typedef struct {
+    double strain, kinetic, external, damping, dissipated, contact, friction, fracture;
+} pg_energies;
+/* What loads, reactions, inertia and damping miss of balance: the largest sum of forces over that of their
+ * sizes, of moments over that times the body's diagonal; in how many states (0: not measured). */
+typedef struct { double force, moment; long states; } pg_misbalance;
+/* Contact of crack faces, and short-range contact. */
+typedef struct {
+    /* right-hand sides for the compliance of pieces, dense solves, changes of status on the way, all of the
+     * run; seconds of them */
+    long   columns, solves, changes;
+    double seconds;
+    /* in the state last solved for: pieces, and how they stand; passes and sweeps that this took */
+    long   pieces, open, stick, sliding, passes, sweeps;
+    double overlap;                                    /* largest overlap of a mean gap over the run, m */
+    /* short-range contact in the last state: pairs without a bond that are near each other; that touch */
+    long   pairs, touching;
+    double overlap_max;                                /* over accepted steps, m */
+} pg_contact_report;
+/* What linear systems took: factors and updates of them, solves, multilevel preconditioners made, iterations
+ * of conjugate gradients; entries of the factor and what it took; by which ordering, solver,
+ * preconditioner. */
+typedef struct {
+    long   factorizations, updates, solves, preconditioners;
+    size_t cg_iterations;
     double factor_entries, factor_flops;
-    /* Event stepping where growth went on by itself: how often, steps of it (events at a held load, or time
-     * steps), s in motion, and the largest jump of a reaction at the begin or end of a motion, over the
-     * largest reaction. */
-    long   instabilities, unstable_steps;
-    double motion_time, switch_jump;
     char   ordering[16], solver[16], preconditioner[128];
+} pg_linear_report;
+/* Event stepping where growth went on by itself: how often, steps of it (events at a held load, or time
+ * steps), s in motion, and the largest jump of a reaction at the begin or end of a motion, over the largest
+ * reaction. */
+typedef struct { long count, steps; double time, jump; } pg_instabilities;
+typedef struct {                                       /* of the run so far */
+    long   steps, events, iterations, broken, bonds_over_limit;
+    size_t degenerate_points, isolated_nodes, fragments, unended_cells;
+    double degenerate_at[3];                           /* where the first of degenerate_points is, m */
+    double utilisation_max, residual_max;              /* over accepted steps */
+    pg_misbalance balance;
+    pg_energies   energy;
+    pg_contact_report contact;
+    pg_linear_report  linear;
+    pg_instabilities  unstable;
+    double seconds[PG_SECONDS_COUNT];
     pg_skip skipped[16];  size_t nskipped;
     char   warning[48][400]; size_t nwarning;          /* where they are more the last one says so */
     /* what ended the run before its loads were reached, static text; NULL: see warnings */

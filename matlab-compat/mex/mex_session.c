@@ -35,8 +35,8 @@ int command_open (const call *c)
 /* Names of loads, as a column of cells. */
 static mxArray *names_of (const pg_problem *p)
 {
-    mxArray *a = mxCreateCellMatrix ((mwSize) p->nload, 1);
-    for (size_t k = 0; k < p->nload; k++) mxSetCell (a, (mwIndex) k, mxCreateString (p->load[k].name));
+    mxArray *a = mxCreateCellMatrix ((mwSize) p->boundary.nload, 1);
+    for (size_t k = 0; k < p->boundary.nload; k++) mxSetCell (a, (mwIndex) k, mxCreateString (p->boundary.load[k].name));
     return a;
 }
 
@@ -64,7 +64,7 @@ int command_about (const call *c)
     put (a, "unknowns", number_of ((double) at->ndof));
     put (a, "bonds", number_of ((double) at->nbond));
     put (a, "spacing", number_of (p->cloud.h));
-    put (a, "horizon", number_of (p->approx.horizon));
+    put (a, "horizon", number_of (p->form.approx.horizon));
     put (a, "thickness", number_of (p->cloud.thickness));
     put (a, "force", mxCreateString (p->method->name));
     put (a, "solver", mxCreateString (o->kind));
@@ -77,10 +77,10 @@ int command_about (const call *c)
     put (a, "load_factor", number_of (at->factor));
     put (a, "broken", number_of ((double) at->broken));
     put (a, "done", mxCreateLogicalScalar (pg_session_done (s) != 0));
-    put (a, "energy_strain", number_of (r->energy_strain));
-    put (a, "energy_kinetic", number_of (r->energy_kinetic));
-    put (a, "energy_external", number_of (r->energy_external));
-    put (a, "energy_dissipated", number_of (r->energy_dissipated));
+    put (a, "energy_strain", number_of (r->energy.strain));
+    put (a, "energy_kinetic", number_of (r->energy.kinetic));
+    put (a, "energy_external", number_of (r->energy.external));
+    put (a, "energy_dissipated", number_of (r->energy.dissipated));
     put (a, "warnings", warnings_of (r));
     give (c, 0, a);
     return 0;
@@ -113,13 +113,13 @@ int command_step (const call *c)
     put (a, "number", number_of ((double) step->number));
     put (a, "time", number_of (step->time));
     put (a, "load_factor", number_of (step->factor));
-    put (a, "reaction", full_of (p->nload, 3, step->reaction));
+    put (a, "reaction", full_of (p->boundary.nload, 3, step->reaction));
     put (a, "broken", broken_of (step));
     put (a, "utilisation", number_of (step->utilisation));
     put (a, "dissipated", number_of (step->dissipated));
-    put (a, "energy_strain", number_of (r->energy_strain));
-    put (a, "energy_kinetic", number_of (r->energy_kinetic));
-    put (a, "energy_external", number_of (r->energy_external));
+    put (a, "energy_strain", number_of (r->energy.strain));
+    put (a, "energy_kinetic", number_of (r->energy.kinetic));
+    put (a, "energy_external", number_of (r->energy.external));
     put (a, "done", mxCreateLogicalScalar (pg_session_done (s) != 0));
     give (c, 0, a);
     return 0;
@@ -166,16 +166,16 @@ int command_bonds (const call *c)
     const pg_session *s = take_handle (c, 0, KIND_SESSION);
     if (!s) return 1;
     const pg_problem *p = pg_session_problem (s);
-    size_t n = p->first_bond[PG_BOND_SETS], dim = (size_t) p->dim;
+    size_t n = p->bonds.first[PG_BOND_SETS], dim = (size_t) p->dim;
     mxArray *a = mxCreateStructMatrix (1, 1, 0, NULL), *set = mxCreateDoubleMatrix ((mwSize) n, 1, mxREAL),
             *from = mxCreateDoubleMatrix ((mwSize) n, (mwSize) dim, mxREAL),
             *owner = mxCreateDoubleMatrix ((mwSize) n, 1, mxREAL),
             *point = mxCreateDoubleMatrix ((mwSize) n, 1, mxREAL);
     for (int k = 0; k < PG_BOND_SETS; k++) {
-        const pg_rows *r = &p->rows[k];
+        const pg_rows *r = &p->bonds.rows[k];
         for (size_t i = 0; i < r->family.n; i++)
             for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
-                size_t b = p->first_bond[k] + e;
+                size_t b = p->bonds.first[k] + e;
                 mxGetPr (set)[b] = k + 1, mxGetPr (owner)[b] = (double) i + 1;
                 mxGetPr (point)[b] = (double) r->family.node[e] + 1;
                 for (size_t m = 0; m < dim; m++) mxGetPr (from)[m * n + b] = r->x[i * dim + m];

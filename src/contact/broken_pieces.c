@@ -151,7 +151,7 @@ static void smooth_place (const faces *w, size_t i)
     place *out = &w->about[i];
     const place *own = &w->place[i];
     const double *x = w->p->cloud.x, *at = x + w->dim * own->node;
-    double reach = w->p->approx.horizon, lambda[3], V[9];
+    double reach = w->p->form.approx.horizon, lambda[3], V[9];
     *out = *own;
     for (size_t e = w->family->start[own->node]; e < w->family->start[own->node + 1]; e++) {
         size_t j = (size_t) w->family->node[e];
@@ -335,7 +335,9 @@ done:
 pg_status pg_contact_add_broken (pg_contact_pieces *out, const pg_problem *p, const pg_state *state)
 {
     pg_status status = PG_OK;
-    faces w = { .p = p, .alive = state->alive + p->first_bond[PG_NODES], .family = &p->rows[PG_NODES].family,
+    faces w = { .p = p,
+                .alive = state->alive + p->bonds.first[PG_NODES],
+                .family = &p->bonds.rows[PG_NODES].family,
                 .dim = (size_t) p->dim };
     PG_ALLOC (w.bears, p->cloud.n);
     PG_ALLOC (w.at, p->cloud.n);

@@ -62,7 +62,7 @@ static pg_status start_platen (pg_moving_platens *w, size_t k, double distance)
 {
     pg_status status = PG_OK;
     const pg_problem *p = w->problem;
-    const pg_platen *own = &p->platen[k];
+    const pg_platen *own = &p->boundary.platen[k];
     one_platen *one = &w->platen[k];
     PG_ALLOC (one->reach, p->cloud.n);
     if (own->friction > 0) {
@@ -91,7 +91,8 @@ pg_status pg_moving_platens_create (pg_moving_platens **out, const pg_problem *p
     size_t n = problem->cloud.n;
     *out = NULL;
     PG_ALLOC (w, 1);
-    w->problem = problem, w->stride = stride, w->dim = (size_t) problem->dim, w->nplaten = problem->nplaten;
+    w->problem = problem, w->stride = stride, w->dim = (size_t) problem->dim,
+    w->nplaten = problem->boundary.nplaten;
     w->stiffness = setting->stiffness, w->finest = pg_cloud_finest (&problem->cloud);
     PG_ALLOC (w->platen, w->nplaten);
     PG_ALLOC (w->stiff, n);
@@ -119,7 +120,7 @@ double pg_moving_platens_rate (const pg_moving_platens *w)
     const pg_problem *p = w->problem;
     double most = 0;
     int free = 0;
-    for (size_t k = 0; k < w->nplaten; k++) free |= p->platen[k].mass > 0;
+    for (size_t k = 0; k < w->nplaten; k++) free |= p->boundary.platen[k].mass > 0;
     for (size_t i = 0; i < p->cloud.n; i++)
         most = fmax (most, w->stiff[i]
                                / (p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i]));
@@ -130,20 +131,22 @@ double pg_moving_platens_rate (const pg_moving_platens *w)
 static double load_at (const pg_problem *p, int load, int k, double t)
 {
     static const double anywhere[3] = { 0 };
-    return load < 0 || !p->load[load].value[k] ? 0 : pg_load_value (&p->load[load], k, p->dim, anywhere, t);
+    return load < 0 || !p->boundary.load[load].value[k]
+               ? 0
+               : pg_load_value (&p->boundary.load[load], k, p->dim, anywhere, t);
 }
 
 /* 1: it goes by its forces along that axis. */
 static int goes_freely (const pg_platen *own, const pg_problem *p, int k)
 {
-    return own->mass > 0 && (own->motion < 0 || !p->load[own->motion].value[k]);
+    return own->mass > 0 && (own->motion < 0 || !p->boundary.load[own->motion].value[k]);
 }
 
 /* From the last instant to t; half of the work of forces on it and of its own on the body. */
 static void go (pg_moving_platens *w, size_t i, double t, double dt)
 {
     const pg_problem *p = w->problem;
-    const pg_platen *own = &p->platen[i];
+    const pg_platen *own = &p->boundary.platen[i];
     platen_state *s = &w->platen[i].now;
     for (int k = 0; k < p->dim; k++) {
         int free = goes_freely (own, p, k);
@@ -162,7 +165,7 @@ static void go (pg_moving_platens *w, size_t i, double t, double dt)
 static void kick (pg_moving_platens *w, size_t i, double dt, double step)
 {
     const pg_problem *p = w->problem;
-    const pg_platen *own = &p->platen[i];
+    const pg_platen *own = &p->boundary.platen[i];
     platen_state *s = &w->platen[i].now;
     for (int k = 0; k < p->dim; k++) {
         int free = goes_freely (own, p, k);
@@ -239,7 +242,7 @@ static pg_status look (pg_moving_platens *w, const double *d)
     double spare = margin * w->finest, normal[3];
     for (size_t j = 0; j < w->nplaten; j++) {
         one_platen *one = &w->platen[j];
-        pg_platen wide = p->platen[j];
+        pg_platen wide = p->boundary.platen[j];
         wide.width += 4 * spare;
         one->n = 0;
         for (size_t i = 0; i < p->cloud.n; i++) {
@@ -263,7 +266,7 @@ static void one_point (const pressing *a, size_t i, double *sum)
 {
     pg_moving_platens *w = a->w;
     const pg_problem *p = w->problem;
-    const pg_platen *own = &p->platen[a->platen];
+    const pg_platen *own = &p->boundary.platen[a->platen];
     one_platen *one = &w->platen[a->platen];
     double e[3] = { 0 }, f[3] = { 0 }, move[3] = { 0 }, along = 0, length = 0, shorten = 1,
            across = w->stiff[i] * w->share[i], *slip = one->slip ? one->slip + 3 * i : NULL,
@@ -324,8 +327,8 @@ static pg_status press_all (pg_moving_platens *w, size_t j, const double *d, con
         one->stiff += sum[SUM_STIFF];
         for (int k = 0; k < 3; k++) one->now.force[k] += sum[SUM_FORCE + k];
     }
-    if (w->problem->platen[j].mass > 0)
-        now->rate = fmax (now->rate, 2 * one->stiff / w->problem->platen[j].mass);
+    if (w->problem->boundary.platen[j].mass > 0)
+        now->rate = fmax (now->rate, 2 * one->stiff / w->problem->boundary.platen[j].mass);
 done:
     return status;
 }

@@ -29,13 +29,13 @@ pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contac
     s->impulses = setting->impulses, s->skin = problem->plain && !s->impulses ? 0 : skin;
     s->finest = pg_cloud_finest (&problem->cloud);
     s->nblock = (n * stride + BLOCK - 1) / BLOCK;
-    PG_ALLOC (s->modulus, problem->nlaw);
-    PG_ALLOC (s->shear, problem->nlaw);
+    PG_ALLOC (s->modulus, problem->at.nlaw);
+    PG_ALLOC (s->shear, problem->at.nlaw);
     PG_ALLOC (s->local, n);
     PG_ALLOC (s->start, n * stride);
     PG_ALLOC (s->most, s->nblock);
-    for (size_t m = 0; m < problem->nlaw; m++) {
-        const pg_material *material = &problem->law[m];
+    for (size_t m = 0; m < problem->at.nlaw; m++) {
+        const pg_material *material = &problem->at.law[m];
         double c = pg_material_waves (material).pressure;
         s->modulus[m] = c > 0 ? material->density * c * c : material->modulus;
         s->shear[m] = material->mu;
@@ -58,7 +58,7 @@ static near_pair pair_of (const near_pairs *s, size_t i, size_t j)
 {
     const pg_problem *p = s->problem;
     const double *x = p->cloud.x;
-    int a = p->law_of[PG_NODES][i], b = p->law_of[PG_NODES][j];
+    int a = p->at.law_of[PG_NODES][i], b = p->at.law_of[PG_NODES][j];
     double rr = 0, M = 2 * s->modulus[a] * s->modulus[b] / (s->modulus[a] + s->modulus[b]),
            G = 2 * s->shear[a] * s->shear[b] / (s->shear[a] + s->shear[b]);
     for (size_t k = 0; k < s->dim; k++) rr += pow (x[j * s->dim + k] - x[i * s->dim + k], 2);
@@ -82,8 +82,8 @@ static size_t entry_of (const pg_family *family, size_t i, int j)
 
 static int bonded (const near_pairs *s, const unsigned char *alive, size_t i, size_t j)
 {
-    const pg_family *family = &s->problem->rows[PG_NODES].family;
-    const unsigned char *own = alive + s->problem->first_bond[PG_NODES];
+    const pg_family *family = &s->problem->bonds.rows[PG_NODES].family;
+    const unsigned char *own = alive + s->problem->bonds.first[PG_NODES];
     size_t one = entry_of (family, i, (int) j), other = entry_of (family, j, (int) i);
     return (one != SIZE_MAX && own[one]) || (other != SIZE_MAX && own[other]);
 }
@@ -274,7 +274,7 @@ static pg_status add_broken (near_pairs *s, const pg_state *state, const pg_chan
         size_t i, j;
         pg_problem_locate (p, broken->bond[c], &set, &i);
         if (set != PG_NODES) continue;
-        j = (size_t) p->rows[PG_NODES].family.node[broken->bond[c] - p->first_bond[PG_NODES]];
+        j = (size_t) p->bonds.rows[PG_NODES].family.node[broken->bond[c] - p->bonds.first[PG_NODES]];
         near_pair one = pair_of (s, i, j), other = one;
         if (i == j || !within (s, i, j, one.reach) || bonded (s, state->alive, i, j)) continue;
         other.i = one.j, other.j = one.i;
@@ -322,13 +322,13 @@ static near_pair *listed (near_pairs *s, int i, int j)
  * been apart. Impulses know by themselves how far such pairs may go. */
 static void touch_from_here (near_pairs *s, const pg_state *state, const pg_changes *broken)
 {
-    const pg_family *family = &s->problem->rows[PG_NODES].family;
+    const pg_family *family = &s->problem->bonds.rows[PG_NODES].family;
     for (size_t c = 0; c < broken->n && !s->impulses; c++) {
         int set;
         size_t i, j;
         pg_problem_locate (s->problem, broken->bond[c], &set, &i);
         if (set != PG_NODES) continue;
-        j = (size_t) family->node[broken->bond[c] - s->problem->first_bond[PG_NODES]];
+        j = (size_t) family->node[broken->bond[c] - s->problem->bonds.first[PG_NODES]];
         near_pair *one = listed (s, (int) i, (int) j), *other = listed (s, (int) j, (int) i);
         double r = one && other ? apart (s, state, i, j) : INFINITY;
         if (isfinite (r) && r < one->full) one->reach = other->reach = r;

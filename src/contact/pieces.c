@@ -187,7 +187,7 @@ static pg_status add_links (division *d, size_t k, int begins, size_t path)
     const segment *s = &d->segment[k];
     const double *a = s->end[begins], *b = s->end[1 - begins];
     double length = hypot (b[0] - a[0], b[1] - a[1]), least = INFINITY;
-    if (d->p->consistency) return add_intervals (d, a, b, path);
+    if (d->p->form.consistency) return add_intervals (d, a, b, path);
     for (int i = 0; i <= 8; i++) {
         double x[3] = { a[0] + i / 8.0 * (b[0] - a[0]), a[1] + i / 8.0 * (b[1] - a[1]), 0 };
         least = fmin (least, pg_problem_spacing_at (d->p, x));
@@ -240,7 +240,7 @@ static pg_status add_points (division *d, pg_contact_pieces *out, const link *l,
 {
     pg_status status = PG_OK;
     double t[2], size = (v - u) * l->length;
-    size_t count = d->p->consistency ? 1 : pg_crack_intervals (size, l->h);
+    size_t count = d->p->form.consistency ? 1 : pg_crack_intervals (size, l->h);
     pg_contact_piece *piece = &out->piece[out->n];
     for (int m = 0; m < 2; m++) t[m] = (l->to[m] - l->from[m]) / l->length;
     PG_GROW (out->x, d->cap_x, 2 * (out->npoint + count));
@@ -309,8 +309,8 @@ static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_
         double size = l->length / l->h, u = 0;
         while (u < 1) {
             double goal = end_of (at, even, met) * each, v = (goal - passed) / size;
-            int ends = at + 1 < pieces && v < (d->p->consistency ? 1.5 : 1) + same / l->length;
-            if (!ends || v > 1 || d->p->consistency) v = 1;        /* intervals stay whole */
+            int ends = at + 1 < pieces && v < (d->p->form.consistency ? 1.5 : 1) + same / l->length;
+            if (!ends || v > 1 || d->p->form.consistency) v = 1;        /* intervals stay whole */
             PG_TRY (add_points (d, out, l, u, v));
             if (ends) {
                 out->piece[out->n].arc = 0.5 * (begins + arc + v * l->length), begins = arc + v * l->length;

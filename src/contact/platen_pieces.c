@@ -344,12 +344,12 @@ pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const p
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    facing f = { .p = p, .platen = &p->platen[platen], .q = &q };
+    facing f = { .p = p, .platen = &p->boundary.platen[platen], .q = &q };
     long boxes = 0;
     memset (out, 0, sizeof *out);
     *gap = NULL;
     out->dim = (size_t) p->dim;
-    PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
+    PG_TRY (pg_facet_points (&q, &p->cells, p->bonds.facet_order));
     PG_TRY (find_points (&f));
     if (p->dim == 2) PG_TRY (divide_line (&f));
     else {

@@ -62,23 +62,27 @@ pg_status keep_report (pg_statistics *r, const pg_keeper *k)
     pg_skip *skip = r->skipped;
 #define COUNT(field) PG_KEPT_IN (r->field, 0, most, "a count of the report")
 #define NUMBER(field) PG_KEPT (r->field)
-    PG_TRY (pg_keep_fields (k, "report", "counts", "numbers", 1, PG_ROWS (
-        COUNT (steps), COUNT (events), COUNT (iterations), COUNT (broken), COUNT (bonds_over_limit),
-        COUNT (factorizations), COUNT (updates), COUNT (solves), COUNT (preconditioners),
-        COUNT (contact_columns), COUNT (contact_solves), COUNT (contact_changes), COUNT (balances),
-        COUNT (cg_iterations), COUNT (degenerate_points), COUNT (isolated_nodes), COUNT (fragments),
-        PG_KEPT_IN (r->nskipped, 0, SKIPS, "the number of skipped things"),
-        PG_KEPT_IN (r->nwarning, 0, WARNINGS, "the number of warnings"),
-        NUMBER (utilisation_max), NUMBER (residual_max), NUMBER (overlap_max), NUMBER (energy_strain),
-        NUMBER (energy_kinetic), NUMBER (energy_external), NUMBER (energy_damping),
-        NUMBER (energy_dissipated), NUMBER (factor_entries), NUMBER (factor_flops), NUMBER (energy_fracture),
-        NUMBER (energy_friction), NUMBER (contact_overlap), NUMBER (energy_contact),
-        NUMBER (contact_seconds), NUMBER (balance_force), NUMBER (balance_moment), NUMBER (seconds))));
+    PG_TRY (pg_keep_fields (
+        k, "report", "counts", "numbers", 1,
+        PG_ROWS (COUNT (steps), COUNT (events), COUNT (iterations), COUNT (broken), COUNT (bonds_over_limit),
+                 COUNT (linear.factorizations), COUNT (linear.updates), COUNT (linear.solves),
+                 COUNT (linear.preconditioners), COUNT (contact.columns), COUNT (contact.solves),
+                 COUNT (contact.changes), COUNT (balance.states), COUNT (linear.cg_iterations),
+                 COUNT (degenerate_points), COUNT (isolated_nodes), COUNT (fragments),
+                 PG_KEPT_IN (r->nskipped, 0, SKIPS, "the number of skipped things"),
+                 PG_KEPT_IN (r->nwarning, 0, WARNINGS, "the number of warnings"), NUMBER (utilisation_max),
+                 NUMBER (residual_max), NUMBER (contact.overlap_max), NUMBER (energy.strain),
+                 NUMBER (energy.kinetic), NUMBER (energy.external), NUMBER (energy.damping),
+                 NUMBER (energy.dissipated), NUMBER (linear.factor_entries), NUMBER (linear.factor_flops),
+                 NUMBER (energy.fracture), NUMBER (energy.friction), NUMBER (contact.overlap),
+                 NUMBER (energy.contact), NUMBER (contact.seconds), NUMBER (balance.force),
+                 NUMBER (balance.moment), NUMBER (seconds))));
 #undef COUNT
 #undef NUMBER
-    PG_TRY (pg_keep_text (k, "report.ordering", sizeof r->ordering, r->ordering));
-    PG_TRY (pg_keep_text (k, "report.solver", sizeof r->solver, r->solver));
-    PG_TRY (pg_keep_text (k, "report.preconditioner", sizeof r->preconditioner, r->preconditioner));
+    PG_TRY (pg_keep_text (k, "report.ordering", sizeof r->linear.ordering, r->linear.ordering));
+    PG_TRY (pg_keep_text (k, "report.solver", sizeof r->linear.solver, r->linear.solver));
+    PG_TRY (
+        pg_keep_text (k, "report.preconditioner", sizeof r->linear.preconditioner, r->linear.preconditioner));
     PG_TRY (pg_keep_fields (k, "report", NULL, "saved", SKIPS, PG_ROWS (PG_EACH (skip, seconds_saved))));
     for (size_t i = 0; i < SKIPS; i++) {
         PG_TRY (keep_entry ("skipped", i, sizeof skip[i].what, skip[i].what, k));
@@ -95,7 +99,7 @@ static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keepe
 {
     pg_status status = PG_OK;
     PG_KEEP_LENGTH (k, "solver", "broken_count", b->broken, b->nbroken, b->cap_broken,
-                    p->first_bond[PG_BOND_SETS], "the number of broken bonds");
+                    p->bonds.first[PG_BOND_SETS], "the number of broken bonds");
     if (b->nbroken) PG_TRY (pg_broken_keep (p, "solver.broken", b->nbroken, b->broken, k));
 done:
     return status;
@@ -106,7 +110,7 @@ done:
 static pg_status keep_near (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    size_t nbond = b->system.problem->first_bond[PG_BOND_SETS], n = b->round > 0 ? b->over.n : 0;
+    size_t nbond = b->system.problem->bonds.first[PG_BOND_SETS], n = b->round > 0 ? b->over.n : 0;
     PG_KEEP_LENGTH (k, "solver", "near_count", b->over.bond, n, b->over.cap, b->round > 0 ? nbond : 0,
                     "the number of bonds near their limit");
     if (n == 0) goto done;
@@ -167,7 +171,7 @@ static pg_status keep_preconditioner (pg_system *s, int solves, long factored, c
 {
     system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
-    size_t nbond = s->problem->first_bond[PG_BOND_SETS];
+    size_t nbond = s->problem->bonds.first[PG_BOND_SETS];
     long made = system_has_preconditioner (s) || it->remake;
     int can = solves && (s->force->spares.couplings || s->force->spares.elements) && operates (s) && factored;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
@@ -283,7 +287,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    size_t nload = s->problem->nload;
+    size_t nload = s->problem->boundary.nload;
     long pairs = -1;
     PG_TRY (keep_solver_counts (s, k));
     PG_TRY (pg_keep_fields (k, "solver", NULL, "numbers", 1, PG_ROWS (
@@ -361,10 +365,10 @@ static pg_status keep_shares (const pg_solver *s, const pg_state *state, const p
     const pg_state *at = pg_solver_accepted (s, state);
     double share[SHARES] = {
         [SHARE_BROKEN] = (double) at->broken, [SHARE_WORK] = at->work, [SHARE_REPORTED] = (double) r->broken,
-        [SHARE_STRAIN] = b->round > 0 ? b->strain0 : r->energy_strain,
-        [SHARE_KINETIC] = b->round > 0 ? b->kinetic0 : r->energy_kinetic,
-        [SHARE_EXTERNAL] = r->energy_external, [SHARE_DAMPING] = r->energy_damping,
-        [SHARE_DISSIPATED] = r->energy_dissipated
+        [SHARE_STRAIN] = b->round > 0 ? b->strain0 : r->energy.strain,
+        [SHARE_KINETIC] = b->round > 0 ? b->kinetic0 : r->energy.kinetic,
+        [SHARE_EXTERNAL] = r->energy.external, [SHARE_DAMPING] = r->energy.damping,
+        [SHARE_DISSIPATED] = r->energy.dissipated
     };
     return k->numbers (k->context, "solver.shares", SHARES, share);
 }

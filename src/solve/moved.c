@@ -35,9 +35,9 @@ static pg_status take_report (pg_solver *s, pg_state *state, const pg_moved *m)
     PG_TRY (m->shares (m->context, "solver.shares", SHARES, share));
     state->broken = (long) share[SHARE_BROKEN], r->broken = (long) share[SHARE_REPORTED];
     state->work = s->break_loop.work = share[SHARE_WORK];
-    r->energy_strain = share[SHARE_STRAIN], r->energy_kinetic = share[SHARE_KINETIC];
-    r->energy_external = share[SHARE_EXTERNAL], r->energy_damping = share[SHARE_DAMPING];
-    r->energy_dissipated = share[SHARE_DISSIPATED], r->events = state->events;
+    r->energy.strain = share[SHARE_STRAIN], r->energy.kinetic = share[SHARE_KINETIC];
+    r->energy.external = share[SHARE_EXTERNAL], r->energy.damping = share[SHARE_DAMPING];
+    r->energy.dissipated = share[SHARE_DISSIPATED], r->events = state->events;
 done:
     return status;
 }

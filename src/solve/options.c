@@ -27,8 +27,8 @@ static void check_path (const pg_problem *problem, const pg_scene *scene)
 {
     size_t n;
     const double *path = problem->criterion->type->path (problem->criterion, &n);
-    for (size_t i = 0; path && n > 1 && i < problem->ntip; i++) {
-        const double *x = problem->tip[i].x, nowhere[2] = { 0, 0 };
+    for (size_t i = 0; path && n > 1 && i < problem->crack.ntip; i++) {
+        const double *x = problem->crack.tip[i].x, nowhere[2] = { 0, 0 };
         double to[3], off;
         int ends;
         off = facet_on_path (path, n, x, nowhere, 0, to, &ends);
@@ -133,7 +133,7 @@ static int finds_equilibria (const pg_solver_type *type, const void *unused)
 static void check_stages (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     char names[200];
-    if (!problem->nstage || (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC) return;
+    if (!problem->boundary.nstage || (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC) return;
     solver_names_that (finds_equilibria, NULL, names, sizeof names);
     pg_scene_fault (scene, "stages",
                     "%s does not know stages of loading so far: use solver.kind: %s, or boundary[].table",
@@ -204,17 +204,17 @@ static void check_short_range (const pg_solver_options *o, const pg_problem *pro
                         "short_range acts in time steps by the force alone: use solver.kind: %s, or search: "
                         "faces", names);
     const pg_force_type *force = pg_force_of (problem);
-    int points = !problem->method->shape_functions || problem->approx.type->interpolates;
+    int points = !problem->method->shape_functions || problem->form.approx.type->interpolates;
     if (o->contact.impulses && !points)
         pg_scene_fault (scene, "contact.enforcement",
                         "impulses act on points with a mass of their own, which the unknowns of "
                         "method.approximation: %s are not: use springs, or method.force: %s",
-                        problem->approx.type->name, forces_of_points (names, sizeof names));
-    if (!points && (problem->nplaten || !force || !force->surfaces.at_nodes))
+                        problem->form.approx.type->name, forces_of_points (names, sizeof names));
+    if (!points && (problem->boundary.nplaten || !force || !force->surfaces.at_nodes))
         pg_scene_fault (scene, "contact.search",
                         "short_range acts on displacements of points, which the unknowns of "
                         "method.approximation: %s are not: use method.force: %s",
-                        problem->approx.type->name, forces_of_points (names, sizeof names));
+                        problem->form.approx.type->name, forces_of_points (names, sizeof names));
 }
 
 /* Do single bonds break? */
@@ -293,8 +293,8 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
         pg_scene_fault (scene, "contact.kind",
                         "goes with a strength, at which new cracks begin, in the plane, at rest and with "
                         "shape functions: leave tensile_strength and cohesion out of failure, or set none");
-    for (size_t k = 0; k < problem->nstage; k++)
-        if (problem->stage[k].remove)
+    for (size_t k = 0; k < problem->boundary.nstage; k++)
+        if (problem->boundary.stage[k].remove)
             pg_scene_fault (scene, "contact.kind",
                             "does not know parts that stages take out of the body: leave their remove out, "
                             "or set none");

@@ -194,7 +194,7 @@ static void without (const probe *t, size_t stride, int volumes, int linear, dou
  * vectors to them is more than a fifth of their number. */
 static int outermost (const pg_problem *p, size_t i)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     size_t dim = (size_t) p->dim;
     double h = pg_problem_spacing (p, PG_NODES, i), sum[3] = { 0 }, count = 0, open = 0;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
@@ -217,10 +217,10 @@ static int borne_by_rows (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim;
     if (p->method->shape_functions) return 1;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_set *set = p->load[l].set;
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_set *set = p->boundary.load[l].set;
         double least = INFINITY;
-        if (p->load[l].kind == PG_TRACTION || p->load[l].kind == PG_PRESSURE) return 1;
+        if (p->boundary.load[l].kind == PG_TRACTION || p->boundary.load[l].kind == PG_PRESSURE) return 1;
         for (size_t k = 0; k < dim; k++) {
             double low = INFINITY, high = -INFINITY;
             for (size_t i = 0; i < set->npoint; i++) {
@@ -229,7 +229,7 @@ static int borne_by_rows (const pg_problem *p)
             }
             least = fmin (least, high - low);
         }
-        if (least < p->approx.horizon - 1.5 * p->cloud.h) return 1;
+        if (least < p->form.approx.horizon - 1.5 * p->cloud.h) return 1;
     }
     return 0;
 }
@@ -347,9 +347,9 @@ static double size_of (const probe *t, const double *f)
 static int mark_supports (probe *t, const pg_problem *p)
 {
     size_t marked = 0;
-    if (!p->method->shape_functions || !p->approx.type->interpolates || !t->p->borne) return 0;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    if (!p->method->shape_functions || !p->form.approx.type->interpolates || !t->p->quality.borne) return 0;
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || !load->set->nfacet)
             continue;
         for (size_t k = 0; k < t->dim; k++) {
@@ -357,7 +357,7 @@ static int mark_supports (probe *t, const pg_problem *p)
             for (size_t i = 0; i < load->set->npoint; i++)
                 t->inverse[(size_t) load->set->point[i] * t->stride + k] = 0, marked++;
             for (size_t i = 0; i < load->set->nfacet; i++)
-                t->p->borne[load->set->facet[i]] |= (unsigned char) (1u << k);
+                t->p->quality.borne[load->set->facet[i]] |= (unsigned char) (1u << k);
         }
     }
     t->supported = marked > 0;
@@ -467,7 +467,7 @@ static pg_status prepare (probe *t)
 {
     pg_status status = PG_OK;
     pg_field field[8];
-    size_t stride = 0, nbond = t->p->first_bond[PG_BOND_SETS];
+    size_t stride = 0, nbond = t->p->bonds.first[PG_BOND_SETS];
     PG_TRY (t->force->create (&t->self, t->p));
     for (size_t k = 0, n = t->force->fields (t->self, 8, field); k < n && k < 8; k++)
         stride += (size_t) field[k].components;
@@ -502,11 +502,11 @@ static void diagonal (void *context, double *d)
  * they would lie in memory beside those of the run. */
 static int lasts (const pg_problem *p)
 {
-    return !p->plain && p->method->shape_functions && !p->criterion->type && p->cracks.n == 0;
+    return !p->plain && p->method->shape_functions && !p->criterion->type && p->crack.given.n == 0;
 }
 
 /* Has the run the material of the bare body everywhere? */
-static int is_uniform (const pg_problem *p) { return p->nmaterial == 1 && p->nlaw == 1; }
+static int is_uniform (const pg_problem *p) { return p->nmaterial == 1 && p->at.nlaw == 1; }
 
 /* A factor where it costs less than iterations and the body is whole. */
 static pg_status make_factor (probe *t, const pg_problem *p, int held)
@@ -556,7 +556,7 @@ static void clear (probe *t)
 /* What the intact body lacks: points that carry no stress, and parts that hang together by nothing. */
 static pg_status count_defects (probe *t)
 {
-    const pg_rows *bulk = &t->p->rows[t->p->integration->at_nodes ? PG_NODES : PG_POINTS];
+    const pg_rows *bulk = &t->p->bonds.rows[t->p->form.integration->at_nodes ? PG_NODES : PG_POINTS];
     t->out.points = bulk->n;
     if (!t->force->census) return PG_OK;
     pg_census left = { .at = { t->out.blind[0], t->out.blind[1], t->out.blind[2] } };
@@ -576,15 +576,15 @@ pg_status pg_patch_probe (pg_problem *problem)
     double start = pg_seconds ();
     t.out = (pg_patch) { .error = NAN, .compliance = NAN, .settled = 1 };
     if (!t.force || !t.force->surfaces.surface || !t.force->operator_ || !t.force->field) return PG_OK;
-    if (lasts (problem) && !problem->intact) {
-        PG_ALLOC (problem->intact, 1);
-        problem->intact->wanted = 1 + is_uniform (problem);
+    if (lasts (problem) && !problem->quality.intact) {
+        PG_ALLOC (problem->quality.intact, 1);
+        problem->quality.intact->wanted = 1 + is_uniform (problem);
     }
     PG_TRY (pg_problem_bare (&bare, problem));
     t.p = bare, t.rows = borne_by_rows (problem);
     PG_TRY (prepare (&t));
     PG_TRY (count_defects (&t));
-    int held = bare->nload == 0 || (t.out.fragments && !problem->method->shape_functions);
+    int held = bare->boundary.nload == 0 || (t.out.fragments && !problem->method->shape_functions);
     PG_TRY (make_factor (&t, problem, held));
     measure_unit_strains (&t);
     measure_rigid_motions (&t);
@@ -593,10 +593,10 @@ pg_status pg_patch_probe (pg_problem *problem)
     PG_TRY (measure_softness (&t));
     if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     t.out.seconds = pg_seconds () - start;
-    problem->patch = t.out;
+    problem->quality.patch = t.out;
 done:
     clear (&t);
-    if (problem->intact) problem->intact->wanted = 0;
+    if (problem->quality.intact) problem->quality.intact->wanted = 0;
     pg_problem_bare_free (&bare);
     return status;
 }

@@ -28,7 +28,7 @@ enum { MOST_ON_LATTICE = 2000 };
 static double cost_of_iterations (const pg_problem *p, size_t products)
 {
     double states = pg_voigt_size (p->dim) + 1, expected = 60 + 1.6 * sqrt ((double) p->cloud.n);
-    return fmin (expected, states * (double) products) * product_cost * (double) p->first_bond[PG_BOND_SETS];
+    return fmin (expected, states * (double) products) * product_cost * (double) p->bonds.first[PG_BOND_SETS];
 }
 
 static int has_matrix (const pg_problem *p, const pg_force_type *force, void *self)
@@ -109,7 +109,7 @@ pg_status patch_factor_create (patch_factor **out, const pg_problem *bare, const
     patch_factor *f = NULL;
     pg_linear_info info;
     double iterations = cost_of_iterations (bare, products),
-           assembly = reused ? 0 : assembly_cost * (double) bare->first_bond[PG_BOND_SETS];
+           assembly = reused ? 0 : assembly_cost * (double) bare->bonds.first[PG_BOND_SETS];
     size_t n = (size_t) bare->dim * bare->cloud.n, entries;
     pg_linear_options o = { bare->dim, bare->dim, bare->threads, 1e-12, 0 };
     const pg_sparse *K;

@@ -9,7 +9,7 @@
 const char *pg_patch_state (const pg_problem *p)
 {
     static const char *const names[] = { "xx", "yy", "zz", "xy", "yz", "zx" };
-    return names[p->dim == 2 && p->patch.state == 2 ? 3 : p->patch.state];
+    return names[p->dim == 2 && p->quality.patch.state == 2 ? 3 : p->quality.patch.state];
 }
 
 /* A place, such as (0.1, 0.2) m */
@@ -31,7 +31,7 @@ static double percent (double share)
 /* One sentence: the error, and by how much the body is too soft or too stiff where that is most of it. */
 void pg_patch_words (const pg_problem *p, char *out, size_t size)
 {
-    const pg_patch *t = &p->patch;
+    const pg_patch *t = &p->quality.patch;
     char by[60] = "";
     if (t->error >= 0.01 && fabs (t->compliance) >= 0.5 * t->error)
         snprintf (by, sizeof by, ": this body is %.4g %% too %s", percent (t->compliance),
@@ -69,9 +69,9 @@ static int ends_smoothly (const pg_kernel *kernel)
  * derivatives. */
 void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
-    double reach = p->approx.horizon / p->cloud.h, across = thinnest (p);
-    int exact = p->approx.type->exact, consistent = p->integration->consistent,
-        smooth = ends_smoothly (p->approx.kernel);
+    double reach = p->form.approx.horizon / p->cloud.h, across = thinnest (p);
+    int exact = p->form.approx.type->exact, consistent = p->form.integration->consistent,
+        smooth = ends_smoothly (p->form.approx.kernel);
     if (p->sums && across < 4 * reach)
         snprintf (out, size,
                   "bond-type forces want at least %.0f points across, four horizons, and this body has %.0f: "
@@ -90,7 +90,7 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
         snprintf (out, size,
                   "points without cells are integrated by their volumes: use points that lie more evenly, or "
                   "a mesh or body with integration: consistent");
-    else if (p->approx.type->interpolates)
+    else if (p->form.approx.type->interpolates)
         snprintf (out, size,
                   "use %sessential: nitsche (supports on the points of nosb are not consistent), or "
                   "approximation: rkpm",
@@ -105,7 +105,7 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 /* Too large an error is refused unless the scene accepts it; too few neighbours always. */
 pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)
 {
-    const pg_patch *t = &p->patch;
+    const pg_patch *t = &p->quality.patch;
     char words[240], remedy[240], at[100];
     if (!t->measured) return PG_OK;
     pg_patch_place (p, 4 * t->degenerate > t->points ? t->blind : t->worst, at, sizeof at);
@@ -114,9 +114,9 @@ pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)
                         "%zu of %zu evaluation points, such as that at %s, see too few points for a strain "
                         "and would carry no stress: use a larger horizon%s "
                         "(now %.4g spacings), or a finer spacing",
-                        t->degenerate, t->points, at, p->approx.order == 2 ? ", or basis: linear" : "",
-                        p->approx.horizon / p->cloud.h);
-    else if (!(t->error <= PG_PATCH_REFUSED) && !p->accept_inexact) {
+                        t->degenerate, t->points, at, p->form.approx.order == 2 ? ", or basis: linear" : "",
+                        p->form.approx.horizon / p->cloud.h);
+    else if (!(t->error <= PG_PATCH_REFUSED) && !p->quality.accept_inexact) {
         pg_patch_words (p, words, sizeof words);
         pg_patch_remedy (p, remedy, sizeof remedy);
         pg_scene_fault (scene, "method",

@@ -16,9 +16,9 @@ static int lies_on (const pg_problem *p, const pg_platen *platen, size_t facet)
 
 int platens_touch (const pg_problem *p)
 {
-    for (size_t i = 0; i < p->nplaten; i++) {
+    for (size_t i = 0; i < p->boundary.nplaten; i++) {
         size_t f = 0;
-        while (f < p->cells.nfacet && !lies_on (p, &p->platen[i], f)) f++;
+        while (f < p->cells.nfacet && !lies_on (p, &p->boundary.platen[i], f)) f++;
         if (f == p->cells.nfacet) return 0;
     }
     return 1;
@@ -48,7 +48,7 @@ static void refuse_masses (const pg_problem *problem, const pg_scene *scene)
 {
     static const char *const key[2] = { "mass", "velocity" };
     char path[64];
-    for (size_t i = 0; i < problem->nplaten; i++)
+    for (size_t i = 0; i < problem->boundary.nplaten; i++)
         for (int k = 0; k < 2; k++) {
             snprintf (path, sizeof path, "platens[%zu].%s", i, key[k]);
             if (pg_scene_given (scene, "%s", path))
@@ -65,7 +65,7 @@ static void refuse_inside (const pg_problem *problem, size_t i, const pg_scene *
     char path[64];
     for (size_t k = 0; k < problem->cloud.n; k++) {
         double h = problem->cloud.size ? problem->cloud.size[k] : problem->cloud.h,
-               away = pg_platen_distance (&problem->platen[i], problem->dim, x + k * dim, normal);
+               away = pg_platen_distance (&problem->boundary.platen[i], problem->dim, x + k * dim, normal);
         if (away < -PG_NO_LENGTH * h && away < worst) worst = away, at = k;
     }
     if (!(worst < 0)) return;
@@ -80,13 +80,13 @@ static void refuse_inside (const pg_problem *problem, size_t i, const pg_scene *
 static void check_moving (const pg_problem *problem, const pg_scene *scene)
 {
     char path[64];
-    if (problem->method->shape_functions && !problem->approx.type->interpolates)
+    if (problem->method->shape_functions && !problem->form.approx.type->interpolates)
         pg_scene_fault (scene, "platens",
                         "in explicit steps they press points, whose displacements the unknowns of "
                         "method.approximation: %s are not: take another force, or supports on sets",
-                        problem->approx.type->name);
-    for (size_t i = 0; i < problem->nplaten; i++) {
-        const pg_platen *p = &problem->platen[i];
+                        problem->form.approx.type->name);
+    for (size_t i = 0; i < problem->boundary.nplaten; i++) {
+        const pg_platen *p = &problem->boundary.platen[i];
         snprintf (path, sizeof path, "platens[%zu].tilt", i);
         if (p->tilts) pg_scene_fault (scene, path, "platens do not turn in explicit steps so far: use held");
         snprintf (path, sizeof path, "platens[%zu].mass", i);
@@ -104,7 +104,7 @@ void platens_check (const pg_solver_options *o, const pg_problem *problem, const
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
-    if (!problem->nplaten) return;
+    if (!problem->boundary.nplaten) return;
     if (o->flags & PG_SOLVER_EXPLICIT) {
         check_moving (problem, scene);
         return;
@@ -130,8 +130,8 @@ void platens_check (const pg_solver_options *o, const pg_problem *problem, const
         pg_scene_fault (scene, "platens",
                         "do not go with a strength yet, at which new cracks begin: leave "
                         "failure.tensile_strength and failure.cohesion out");
-    for (size_t k = 0; k < problem->nstage; k++)
-        if (problem->stage[k].remove)
+    for (size_t k = 0; k < problem->boundary.nstage; k++)
+        if (problem->boundary.stage[k].remove)
             pg_scene_fault (scene, "platens",
                             "do not know parts that stages take out of the body: leave their remove out");
     if (o->on_instability != PG_UNSTABLE_FOLLOW)

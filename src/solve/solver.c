@@ -44,7 +44,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_TRY (system_create (sys));
     PG_TRY (contact_create (sys));
     PG_TRY (facet_create (&s->break_loop, &facet_client));
-    PG_ALLOC (s->reaction, PG_REACTIONS * problem->nload);
+    PG_ALLOC (s->reaction, PG_REACTIONS * problem->boundary.nload);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
     s->options.scene = NULL;                               /* pg_solver_begin gets it anew */
@@ -123,7 +123,7 @@ static void tell_blind (pg_solver *s)
 {
     char at[100];
     const pg_statistics *r = &s->report;
-    if (s->warned_blind || r->degenerate_points <= s->problem->patch.degenerate) return;
+    if (s->warned_blind || r->degenerate_points <= s->problem->quality.patch.degenerate) return;
     s->warned_blind = 1;
     pg_patch_place (s->problem, r->degenerate_at, at, sizeof at);
     pg_statistics_warn (&s->report,
@@ -136,7 +136,8 @@ static void tell_blind (pg_solver *s)
 /* Warns once of points between cracks that hang on nothing, so that their displacement is not known. */
 static void tell_alone (pg_solver *s)
 {
-    size_t n = s->report.isolated_nodes, known = s->problem->patch.isolated + s->problem->eroded;
+    size_t n = s->report.isolated_nodes,
+           known = s->problem->quality.patch.isolated + s->problem->crack.eroded;
     if (s->warned_alone || n <= known) return;
     n -= known;
     s->warned_alone = 1;
@@ -239,7 +240,7 @@ static int short_range (const pg_solver *s)
     return (c->kind != PG_CONTACT_NONE && c->search == PG_CONTACT_SHORT_RANGE) || s->moving;
 }
 
-const pg_load *pg_solver_loads (const pg_solver *s) { return s->problem->load; }
+const pg_load *pg_solver_loads (const pg_solver *s) { return s->problem->boundary.load; }
 
 /* An accepted state at rest is one that something holds. */
 static pg_status check_rest (pg_solver *s, const pg_state *state)
@@ -255,14 +256,14 @@ static pg_status check_numbers (pg_solver *s)
     pg_status status = PG_OK;
     const pg_statistics *r = &s->report;
     if (s->options.flags & PG_SOLVER_EXPLICIT) return PG_OK;
-    double wrong = !isfinite (r->energy_strain + r->energy_kinetic + s->break_loop.work);
+    double wrong = !isfinite (r->energy.strain + r->energy.kinetic + s->break_loop.work);
     PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &wrong));
     if (wrong > 0)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "energies of the state are no finite numbers (strain %g J, motion %g J, work of the loads "
                  "%g J): next to nothing resists a part of the body, or loads are too large for it; try "
                  "another solver.linear, and tell us",
-                 r->energy_strain, r->energy_kinetic, s->break_loop.work);
+                 r->energy.strain, r->energy.kinetic, s->break_loop.work);
 done:
     return status;
 }
@@ -282,7 +283,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
         stage_save (s);
         PG_TRY (break_loop_save (b));
         s->follows = (s->options.flags & (PG_SOLVER_EXPLICIT | PG_SOLVER_STAGED)) && !s->options.plain;
-        b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
+        b->work0 = b->work, b->stored0 = s->report.energy.strain + s->report.energy.kinetic;
     }
     step->number = state->step + 1;
     PG_TRY (s->type->step (s, state, step));
@@ -302,10 +303,10 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     report_sums (s);
     if (step->level && !pg_problem_removes (s->problem) && !short_range (s))
         contact_note_overlap (&s->break_loop.system, state);
-    r->energy_external = s->break_loop.work;
+    r->energy.external = s->break_loop.work;
     /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
-    r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping
-                           - r->energy_friction - r->energy_contact;
+    r->energy.dissipated = r->energy.external - r->energy.strain - r->energy.kinetic - r->energy.damping
+                           - r->energy.friction - r->energy.contact;
     solver_note_turns (s, state, step);
     facet_doubt_energy (s, state, step->time);
     PG_TRY (stage_close_step (s, state, step));
@@ -370,7 +371,7 @@ static void report_skips (pg_solver *s)
 {
     const pg_system *sys = &s->break_loop.system;
     const pg_statistics *r = &s->report;
-    size_t factors = (size_t) r->factorizations, preconditioners = (size_t) r->preconditioners;
+    size_t factors = (size_t) r->linear.factorizations, preconditioners = (size_t) r->linear.preconditioners;
     report_spared (s, sys->choice.kept, "factorization after %ld break rounds", factors,
                    "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
     report_spared (s, sys->updates.by_columns, "factorization after %ld events", factors,
@@ -404,7 +405,7 @@ static void report_skips (pg_solver *s)
     if (!sys->balance.unmeasured) return;
     pg_statistics_skip (&s->report,
                         8e-9 * (double) sys->balance.unmeasured
-                            * (double) s->problem->first_bond[PG_BOND_SETS],
+                            * (double) s->problem->bonds.first[PG_BOND_SETS],
                         "measures of the residual",
                         "in motion iterations and breaking change it by known sums; every sixteenth was "
                         "measured");
@@ -417,7 +418,7 @@ static void report_skips (pg_solver *s)
 static void warn_of_facets (pg_solver *s)
 {
     const pg_statistics *r = &s->report;
-    double share = r->energy_fracture > 0 ? r->energy_dissipated / r->energy_fracture : 1;
+    double share = r->energy.fracture > 0 ? r->energy.dissipated / r->energy.fracture : 1;
     int moves = (s->options.flags & PG_SOLVER_NEEDS_DENSITY) != 0;
     int few = r->events + r->iterations < 10;
     double most = few ? 3 : 1.15, least = few ? 1.0 / 3 : 0.85;
@@ -443,11 +444,11 @@ static void warn_of_facets (pg_solver *s)
 static void warn_at_end (pg_solver *s, const pg_state *state)
 {
     if (!s->warned_energy && s->report.broken > 0
-        && s->report.energy_dissipated < -1e-6 * s->report.energy_external) {
+        && s->report.energy.dissipated < -1e-6 * s->report.energy.external) {
         pg_statistics_warn (&s->report,
                             "breaking has fed %.3g J into the body instead of dissipating energy (external "
                             "work %.3g J): %s",
-                            -s->report.energy_dissipated, s->report.energy_external,
+                            -s->report.energy.dissipated, s->report.energy.external,
                             s->break_loop.growth
                                 ? "facets in motion that touch, or are cut near other cracks, give more back "
                                   "than they take"
@@ -461,8 +462,9 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
     }
     if (s->finished) platens_tell (&s->break_loop.system);
     if (!s->warned_overlap && !short_range (s)
-        && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
-        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (%s)", s->report.overlap_max,
+        && s->report.contact.overlap_max > 1e-3 * largest_displacement (s, state)) {
+        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (%s)",
+                            s->report.contact.overlap_max,
                             s->options.contact.kind == PG_CONTACT_NONE
                                 ? "contact is not modelled: contact.kind"
                                 : "contact holds the means over pieces of two spacings apart");
@@ -482,7 +484,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             pg_last_error ());
     if (s->break_loop.growth) tell_blind (s), tell_alone (s);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
-    s->report.overlap_max = system_most (sys, s->report.overlap_max);
+    s->report.contact.overlap_max = system_most (sys, s->report.contact.overlap_max);
     report_skips (s);
     report_sums (s);
     warn_at_end (s, state);
@@ -498,12 +500,12 @@ pg_status pg_solver_share_report (pg_solver *s)
 {
     pg_status status = PG_OK;
     pg_statistics *r = &s->report;
-    double sum[] = { r->energy_strain, r->energy_kinetic, r->energy_external, r->energy_damping,
-                     r->energy_dissipated, (double) r->broken };
+    double sum[] = { r->energy.strain, r->energy.kinetic, r->energy.external, r->energy.damping,
+                     r->energy.dissipated, (double) r->broken };
     if (!system_is_shared (&s->break_loop.system) || s->shared) return PG_OK;
     PG_TRY (pg_cloud_sum (&s->problem->cloud, sizeof sum / sizeof *sum, sum));
-    r->energy_strain = sum[0], r->energy_kinetic = sum[1], r->energy_external = sum[2];
-    r->energy_damping = sum[3], r->energy_dissipated = sum[4], r->broken = (long) sum[5];
+    r->energy.strain = sum[0], r->energy.kinetic = sum[1], r->energy.external = sum[2];
+    r->energy.damping = sum[3], r->energy.dissipated = sum[4], r->broken = (long) sum[5];
     s->shared = 1;
 done:
     return status;

@@ -41,7 +41,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     contact_accept (&b->system);
     PG_TRY (contact_show (&b->system, 1));
     state->factor = state->time = t;
-    s->report.energy_strain = b->work_balance.strain;
+    s->report.energy.strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     step->factor = step->time = t;
     while ((double) s->next_level / (double) s->options.levels <= (t - stage_start (s)) * (1 + 1e-12))
@@ -64,7 +64,7 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = step_fixed (s, state, step);
     if (status == PG_OK && s->break_loop.work_balance.reaction)
         memcpy (s->reaction, s->break_loop.work_balance.reaction,
-                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
+                PG_REACTIONS * s->problem->boundary.nload * sizeof *s->reaction);
     return status;
 }
 
@@ -125,9 +125,9 @@ static void read_steps (pg_solver_options *o, const pg_problem *problem, const p
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->steps = pg_scene_integer (scene, "solver.steps");
     if (!pg_scene_given (scene, "solver.steps") && o->levels > own->steps) own->steps = o->levels;
-    o->steps = problem->nstage ? 0 : own->steps;
-    for (size_t k = 0; k < problem->nstage; k++)
-        o->steps += problem->stage[k].steps ? problem->stage[k].steps : own->steps;
+    o->steps = problem->boundary.nstage ? 0 : own->steps;
+    for (size_t k = 0; k < problem->boundary.nstage; k++)
+        o->steps += problem->boundary.stage[k].steps ? problem->boundary.stage[k].steps : own->steps;
 }
 
 /* event where it can be: loads that are proportional to the load factor make it exact and cheap. */
@@ -138,9 +138,9 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     int closes = o->contact.kind != PG_CONTACT_NONE;
-    int suits = proportional || problem->nstage
+    int suits = proportional || problem->boundary.nstage
                 || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
-    if (problem->nplaten) suits = proportional && platens_touch (problem);
+    if (problem->boundary.nplaten) suits = proportional && platens_touch (problem);
     if (is_rough (o) && problem->dim == 3 && (!proportional || o->contact.cohesion > 0)) suits = 0;
     if (closes && pg_criterion_of_bonds (problem->criterion) && (!proportional || o->contact.cohesion > 0))
         suits = 0;

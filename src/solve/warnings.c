@@ -40,8 +40,8 @@ static int may_turn (const pg_problem *p)
     for (size_t k = 0; k < dim; k++)
         middle[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]),
         size = fmax (size, p->cloud.high[k] - p->cloud.low[k]);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (pg_load_prescribes (load) && pg_load_rotates (load)) return 0;
         for (size_t k = 0; (pg_load_prescribes (load) || load->kind == PG_SPRING) && k < dim; k++)
             for (size_t i = 0; load->value[k] && i < load->set->npoint; i++) {
@@ -62,9 +62,9 @@ static int may_turn (const pg_problem *p)
 /* Does a load prescribe displacements along axis k? */
 static int held_along (const pg_problem *p, int k)
 {
-    for (size_t l = 0; l < p->nload; l++)
-        if ((pg_load_prescribes (&p->load[l]) || p->load[l].kind == PG_SPRING)
-            && !pg_load_rotates (&p->load[l]) && p->load[l].value[k])
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if ((pg_load_prescribes (&p->boundary.load[l]) || p->boundary.load[l].kind == PG_SPRING)
+            && !pg_load_rotates (&p->boundary.load[l]) && p->boundary.load[l].value[k])
             return 1;
     return 0;
 }
@@ -76,22 +76,23 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
     int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
         /* what platens hold shows in contact only */
-        int held = !(o->flags & PG_SOLVER_QUASI_STATIC) || p->nplaten || held_along (p, k);
-        for (size_t l = 0; l < p->nload; l++)
-            moving |= acts (p, &p->load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
-                      || p->load[l].kind == PG_PRESSURE;
+        int held = !(o->flags & PG_SOLVER_QUASI_STATIC) || p->boundary.nplaten || held_along (p, k);
+        for (size_t l = 0; l < p->boundary.nload; l++)
+            moving |= acts (p, &p->boundary.load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
+                      || p->boundary.load[l].kind == PG_PRESSURE;
         everywhere &= held;
         if (!held)
             pg_statistics_warn (
                 report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere",
                 "xyz"[k], "xyz"[k]);
     }
-    if (everywhere && (o->flags & PG_SOLVER_QUASI_STATIC) && p->nload && !p->nplaten && may_turn (p))
+    if (everywhere && (o->flags & PG_SOLVER_QUASI_STATIC) && p->boundary.nload && !p->boundary.nplaten
+        && may_turn (p))
         pg_statistics_warn (
             report,
             "nothing keeps the body from turning: the prescribed displacements leave a rotation free");
-    for (int k = 0; k < 3; k++) moving |= p->initial[k] != NULL;
-    if (!moving && !p->nmotion)
+    for (int k = 0; k < 3; k++) moving |= p->boundary.initial[k] != NULL;
+    if (!moving && !p->boundary.nmotion)
         pg_statistics_warn (
             report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
 }
@@ -101,8 +102,8 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
 {
     unsigned held = 0;
     size_t all = pg_cloud_total (&p->cloud);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || pg_load_rotates (load) || load->essential == PG_ESSENTIAL_NITSCHE
             || pg_set_points (load->set) < all)
             continue;
@@ -150,8 +151,8 @@ static void doubt_depth (pg_statistics *report, const pg_problem *p)
     const char *name = "";
     size_t loads = 0;
     if (!p->method || !p->method->shape_functions) return;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->share
             || pg_set_points (load->set) <= (size_t) p->dim)
             continue;                                  /* so few points are a pin */
@@ -188,8 +189,8 @@ static int spans (const pg_problem *p, const pg_load *load, int k, int q, double
 static int bends (const pg_problem *p, size_t load, int k, int q, double low, double high)
 {
     double from, to;
-    for (size_t l = 0; l < p->nload; l++)
-        if (l != load && spans (p, &p->load[l], k, q, &from, &to)
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (l != load && spans (p, &p->boundary.load[l], k, q, &from, &to)
             && (0.5 * (from + to) < low || 0.5 * (from + to) > high))
             return 1;
     return 0;
@@ -199,11 +200,12 @@ static int bends (const pg_problem *p, size_t load, int k, int q, double low, do
  * turning. */
 static int may_clamp (const pg_problem *p, size_t load)
 {
-    const pg_load *this = &p->load[load];
+    const pg_load *this = &p->boundary.load[load];
     if (!pg_load_prescribes (this) || this->share || this->symmetry || p->cloud.subdomain) return 0;
-    for (size_t l = 0; l < p->nload; l++)
-        if (l != load && (pg_load_prescribes (&p->load[l]) || p->load[l].kind == PG_SPRING)) return 1;
-    return p->nplaten > 0;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (l != load && (pg_load_prescribes (&p->boundary.load[l]) || p->boundary.load[l].kind == PG_SPRING))
+            return 1;
+    return p->boundary.nplaten > 0;
 }
 
 /* Displacements along k of a short part of the surface, its points more than a spacing apart along q, keep it
@@ -212,8 +214,8 @@ static void doubt_clamps (pg_statistics *report, const pg_problem *p)
 {
     static const double narrow = 1.5, most = 0.2;      /* spacings; of the body along q */
     double low, high;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         int done = !may_clamp (p, l);
         for (int k = 0; k < p->dim && !done; k++)
             for (int q = 0; q < p->dim && !done; q++) {
@@ -238,8 +240,8 @@ static void doubt_clamps (pg_statistics *report, const pg_problem *p)
 static void doubt_inner (pg_statistics *report, const pg_problem *p)
 {
     size_t all = pg_cloud_total (&p->cloud);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !pg_set_inner (load->set)
             || pg_set_points (load->set) == all)
             continue;
@@ -256,7 +258,7 @@ static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (
 static void doubt_patch (pg_statistics *report, const pg_problem *p)
 {
     char words[240], remedy[240], at[100];
-    const pg_patch *t = &p->patch;
+    const pg_patch *t = &p->quality.patch;
     if (!t->measured) return;
     pg_patch_place (p, t->blind, at, sizeof at);
     if (t->degenerate)
@@ -281,7 +283,7 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
                             "times the angle, and forces and moments miss balance by as much; a body that "
                             "turns more than it strains is not to be trusted: use integration: consistent, a "
                             "larger horizon (now %.3g spacings) or a smaller spacing",
-                            t->rigid, p->approx.horizon / p->cloud.h);
+                            t->rigid, p->form.approx.horizon / p->cloud.h);
     if (t->error <= PG_PATCH_WARNED) return;
     pg_patch_words (p, words, sizeof words);
     pg_patch_remedy (p, remedy, sizeof remedy);
@@ -318,7 +320,7 @@ static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, cons
 static void doubt_shear (pg_statistics *report, const pg_problem *p)
 {
     static const double origin[3] = { 0 };
-    if (!p->cracks.n || !pg_criterion_of_tips (p->criterion)) return;
+    if (!p->crack.given.n || !pg_criterion_of_tips (p->criterion)) return;
     for (size_t m = 0; m < p->nmaterial; m++) {
         pg_fracture_limits limits = { .cohesion = NAN };
         if (!p->criterion[m].never) p->criterion[m].type->fracture (&p->criterion[m], origin, 0, &limits);
@@ -350,7 +352,7 @@ static pg_status doubt_tips (pg_statistics *report, const pg_problem *p)
     pg_status status = PG_OK;
     pg_state *state = NULL;
     size_t blind = 0;
-    if (p->dim != 2 || !p->ntip || !pg_criterion_of_tips (p->criterion)) return PG_OK;
+    if (p->dim != 2 || !p->crack.ntip || !pg_criterion_of_tips (p->criterion)) return PG_OK;
     PG_TRY (pg_state_create (&state, p, pg_problem_unknowns (p)));
     for (size_t i = 0; i < state->paths->ntip; i++) {
         pg_tip_field f;
@@ -398,7 +400,7 @@ static void doubt_voids (pg_statistics *report, const pg_problem *p)
     static const double direction[][3] = {
         { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { .71, .71, 0 }, { .71, -.71, 0 }, { .58, .58, .58 } };
     size_t stride = p->cloud.n / SAMPLE + 1, found = 0, looked = 0;
-    if (!p->search || p->body.n || p->part.mesh.n || !pg_criterion_of_tips (p->criterion)) return;
+    if (!p->crack.search || p->body.n || p->part.mesh.n || !pg_criterion_of_tips (p->criterion)) return;
     for (size_t i = 0; i < p->cloud.n; i += stride, looked++) {
         int any = 0;
         for (size_t k = 0; k < sizeof direction / sizeof *direction && !any; k++)
@@ -427,8 +429,9 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
     doubt_voids (report, p);
     doubt_tips (report, p);
     doubt_motion (report, p, o);
-    for (size_t k = 0; k < p->nnote; k++)
-        if (warns (p->note[k])) pg_statistics_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
+    for (size_t k = 0; k < p->notes.n; k++)
+        if (warns (p->notes.text[k]))
+            pg_statistics_warn (report, "%s", p->notes.text[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)
         pg_statistics_warn (report,
                             "element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better "
@@ -439,9 +442,9 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
 /* Notes of the model first, then what ranks do in another way, then keys of other solvers. */
 int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, char *out, size_t size)
 {
-    for (size_t i = 0; i < p->nnote; i++) {
-        if (warns (p->note[i]) || k-- > 0) continue;
-        snprintf (out, size, "%s", p->note[i]);
+    for (size_t i = 0; i < p->notes.n; i++) {
+        if (warns (p->notes.text[i]) || k-- > 0) continue;
+        snprintf (out, size, "%s", p->notes.text[i]);
         return 1;
     }
     if (o->event && p->cloud.subdomain && k-- == 0) {

@@ -90,8 +90,8 @@ static void a_wedge_drives_blocks_apart (void **state)
     check_relative (platen_of (&r, 1)->force[0], -side, 1e-9);
     check_relative (platen_of (&r, 2)->force[1] + platen_of (&r, 3)->force[1], press, 1e-9);
     const pg_statistics *s = pg_solver_report_now (r.solver);
-    check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-6, s->energy_external);
-    assert_true (s->energy_friction > 0.1 * s->energy_external && s->contact_overlap < 1e-12);
+    check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-6, s->energy.external);
+    assert_true (s->energy.friction > 0.1 * s->energy.external && s->contact.overlap < 1e-12);
     clear (&r);
 }
 

@@ -111,7 +111,7 @@ static void pressed_crack_is_no_crack (void **state)
         run r = plate_of (&(plate){ 90, 0, 1.0 / 3, "stress", "{force: bond}", k ? "{kind: normal}"
                                     : "{kind: none}", fixed, 8, 1, !k });
         to_the_end (&r);
-        stored[k] = pg_solver_report_now (r.solver)->energy_strain;
+        stored[k] = pg_solver_report_now (r.solver)->energy.strain;
         if (k) check_relative (faces_of (&r).pressure, 1, 0.02);
         clear (&r);
     }
@@ -142,12 +142,12 @@ static void all_ways_lead_to_one_equilibrium (void **state)
             faces now = faces_of (&r);
             const pg_statistics *s = pg_solver_report_now (r.solver);
             check_relative (fabs (now.shear), 0.3 * now.pressure, 1e-7);
-            check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-7,
-                          s->energy_external);
-            if (first.pressure == 0) first = now, friction = s->energy_friction;
+            check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-7,
+                          s->energy.external);
+            if (first.pressure == 0) first = now, friction = s->energy.friction;
             check_relative (now.pressure, first.pressure, 1e-6);
             check_relative (now.slip, first.slip, 1e-6);
-            check_relative (s->energy_friction, friction, 1e-6);
+            check_relative (s->energy.friction, friction, 1e-6);
             assert_true (friction > 0);
             clear (&r);
         }
@@ -246,11 +246,11 @@ static void motion_keeps_its_momenta (void **state)
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             const pg_statistics *s = pg_solver_report_now (r.solver);
-            assert_true (s->energy_friction >= before * (1 - 1e-12));
-            before = s->energy_friction;
-            check_scaled (s->energy_external - s->energy_strain - s->energy_kinetic - s->energy_friction, 0,
-                          2e-3, s->energy_external);
-            slipped += s->contact_sliding > 0;
+            assert_true (s->energy.friction >= before * (1 - 1e-12));
+            before = s->energy.friction;
+            check_scaled (s->energy.external - s->energy.strain - s->energy.kinetic - s->energy.friction, 0,
+                          2e-3, s->energy.external);
+            slipped += s->contact.sliding > 0;
         }
         double p[2] = { 0, 0 }, L = 0, size = 0, moment = 0;
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
@@ -263,7 +263,7 @@ static void motion_keeps_its_momenta (void **state)
         check_scaled (L, 0, 1e-12, moment);
         assert_true (slipped >= 3 && before > 0);
         const pg_statistics *s = pg_solver_report_now (r.solver);
-        sums[k][0] = s->energy_strain, sums[k][1] = s->energy_friction, sums[k][2] = s->energy_external;
+        sums[k][0] = s->energy.strain, sums[k][1] = s->energy.friction, sums[k][2] = s->energy.external;
         clear (&r);
     }
     for (int i = 0; i < 3; i++) check_relative (sums[1][i], sums[0][i], 1e-9);
@@ -292,15 +292,15 @@ static void runs_go_on_bit_by_bit (void **state)
             w < 2 ? ", rows: 20" : "");
         for (int k = 0; k < 2; k++) r[k] = prepare (k + 1, text);
         for (int k = 0; k < 9; k++) advance (&r[0]);
-        assert_true (pg_solver_report_now (r[0].solver)->energy_friction > 0);
+        assert_true (pg_solver_report_now (r[0].solver)->energy.friction > 0);
         keep (&r[0], &t, 0);
         keep (&r[1], &t, 1);
         while (!pg_solver_done (r[0].solver, r[0].state)) {
             advance_alike (&r[0], &r[1]);
             const pg_statistics *a = pg_solver_report_now (r[0].solver),
                                 *b = pg_solver_report_now (r[1].solver);
-            assert_true (a->energy_friction == b->energy_friction && a->energy_strain == b->energy_strain
-                         && a->contact_sliding == b->contact_sliding);
+            assert_true (a->energy.friction == b->energy.friction && a->energy.strain == b->energy.strain
+                         && a->contact.sliding == b->contact.sliding);
         }
         assert_true (pg_solver_done (r[1].solver, r[1].state));
         pg_free (t.byte);

@@ -109,7 +109,7 @@ static void slips_as_a_crack_of_the_scene (void **state)
             check_relative (b.slip, a.slip, row[i].perturb > 0 ? 0.04 : 0.02);
             check_scaled (b.shear, row[i].mu * b.pressure, 1e-9, 1);
         } else assert_true (b.slip < 0.02 * free_slip);
-        assert_true (pg_solver_report_now (found.solver)->contact_overlap < 1e-9 * free_slip);
+        assert_true (pg_solver_report_now (found.solver)->contact.overlap < 1e-9 * free_slip);
         clear (&known), clear (&found);
     }
 }
@@ -148,7 +148,7 @@ static run block_of (const block *l, int way)
 /* Bonds across the plane through the middle at `tilt` degrees are broken. */
 static void cut (run *r, double tilt)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     size_t dim = (size_t) r->problem->dim;
     const double *all = r->problem->cloud.x;
     double b = tilt * 3.14159265358979323846 / 180, n[2] = { -sin (b), cos (b) };
@@ -169,7 +169,7 @@ static borne borne_by (run *r, size_t dim)
     to_the_end (r);
     const pg_statistics *s = pg_solver_report_now (r->solver);
     const pg_contact_values *v = pg_solver_contact (r->solver, &n);
-    borne out = { .energy = s->energy_strain, .friction = s->energy_friction };
+    borne out = { .energy = s->energy.strain, .friction = s->energy.friction };
     for (size_t k = 0; k < n; k++) {
         double slip = 0;
         for (size_t c = 0; c < (dim == 3 ? 3 : 1); c++) slip += v[k].slip[c] * v[k].slip[c];
@@ -229,7 +229,7 @@ static void rubble_bears_nothing (void **state)
     (void) state;
     block l = { 2, 0, 0, -0.01, 0, "{force: bond}", "{kind: normal}", fixed };
     run r = block_of (&l, WHOLE), f = block_of (&l, FOUND);
-    const pg_family *family = &f.problem->rows[PG_NODES].family;
+    const pg_family *family = &f.problem->bonds.rows[PG_NODES].family;
     double whole = borne_by (&r, 2).energy;
     size_t loose = 0;
     cut (&f, 0);
@@ -273,26 +273,26 @@ static void what_broke_closes (void **state)
                                         "{kind: relax, stages: 12, imbalance: 1e-9}" };
     run whole = notched ("", "[[0, 0], [1, -0.1]]", fixed, 1);
     to_the_end (&whole);
-    double stored = pg_solver_report_now (whole.solver)->energy_strain;
+    double stored = pg_solver_report_now (whole.solver)->energy.strain;
     clear (&whole);
     for (int w = 0; w < 3; w++) {
         run r = notched ("failure: {criterion: stretch, critical_stretch: 4e-3}\n",
                          "[[0, 0], [0.5, 1], [0.9166666666666667, 0], [1, -0.1]]", ways[w], 1 + w % 2);
         for (int step = 0; step < 8; step++) advance (&r);
         const pg_statistics *s = pg_solver_report_now (r.solver);
-        double taken = s->energy_dissipated;
+        double taken = s->energy.dissipated;
         long broken = r.state->broken;
-        assert_true (broken > 300 && s->energy_strain < 0.02 * taken && s->overlap_max == 0);
+        assert_true (broken > 300 && s->energy.strain < 0.02 * taken && s->contact.overlap_max == 0);
         to_the_end (&r);
         s = pg_solver_report_now (r.solver);
         print_message ("%s: %ld bonds broken, stored %.4f of the body without a crack between the notches, "
                        "overlap %.1e spacings, taken by breaking %.12g then %.12g, friction %.1e\n", ways[w],
-                       r.state->broken / 2, s->energy_strain / stored, s->overlap_max / 0.1, taken,
-                       s->energy_dissipated, s->energy_friction);
+                       r.state->broken / 2, s->energy.strain / stored, s->contact.overlap_max / 0.1, taken,
+                       s->energy.dissipated, s->energy.friction);
         assert_int_equal (r.state->broken, broken);
-        check_relative (s->energy_strain, stored, w ? 0.04 : 0.03);
-        check_relative (s->energy_dissipated, taken, 1e-9);
-        assert_true (s->overlap_max < (w ? 3e-3 : 1e-3) * 0.1);
+        check_relative (s->energy.strain, stored, w ? 0.04 : 0.03);
+        check_relative (s->energy.dissipated, taken, 1e-9);
+        assert_true (s->contact.overlap_max < (w ? 3e-3 : 1e-3) * 0.1);
         clear (&r);
     }
 }
@@ -319,16 +319,16 @@ static void all_ways_lead_to_one_equilibrium (void **state)
             to_the_end (&r);
             const pg_statistics *s = pg_solver_report_now (r.solver);
             faces now = faces_of (&r, l.beta);
-            if (first.pressure == 0) first = now, friction = s->energy_friction;
+            if (first.pressure == 0) first = now, friction = s->energy.friction;
             check_relative (now.pressure, first.pressure, 1e-6);
             check_relative (now.slip, first.slip, 1e-6);
             /* relaxation has begun without the faces: they count as new, with friction from the beginning */
             if (w < 3) {
-                check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-7,
-                              s->energy_external);
-                check_relative (s->energy_friction, friction, 1e-6);
+                check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-7,
+                              s->energy.external);
+                check_relative (s->energy.friction, friction, 1e-6);
             }
-            assert_true (friction > 0 && s->contact_sliding > 0);
+            assert_true (friction > 0 && s->contact.sliding > 0);
             clear (&known), clear (&r);
         }
     }
@@ -351,8 +351,8 @@ static void runs_go_on_bit_by_bit (void **state)
         keep (&r[1], &t, 1);
         while (!pg_solver_done (r[0].solver, r[0].state)) advance_alike (&r[0], &r[1]);
         const pg_statistics *a = pg_solver_report_now (r[0].solver), *b = pg_solver_report_now (r[1].solver);
-        assert_true (a->energy_friction == b->energy_friction && a->energy_strain == b->energy_strain);
-        assert_true (a->contact_open < a->contact_pieces && a->energy_strain > 0);
+        assert_true (a->energy.friction == b->energy.friction && a->energy.strain == b->energy.strain);
+        assert_true (a->contact.open < a->contact.pieces && a->energy.strain > 0);
         pg_free (t.byte);
         clear (&r[0]), clear (&r[1]);
     }
@@ -383,7 +383,7 @@ static void wings_leave_broken_bonds (void **state)
         to_the_end (&r);
         assert_true (r.state->events >= 10 && r.state->broken >= 10 && before > 100);
         const pg_statistics *s = pg_solver_report_now (r.solver);
-        assert_true (s->contact_overlap < 1e-12 && s->contact_sliding > 4);
+        assert_true (s->contact.overlap < 1e-12 && s->contact.sliding > 4);
         assert_int_equal (s->bonds_over_limit, 0);
         clear (&known), clear (&r);
     }

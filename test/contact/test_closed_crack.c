@@ -72,16 +72,16 @@ static void a_closed_crack_slides_as_in_theory (void **state)
             measure (&l, 1, K, &s);
             print_message ("%g degrees, friction %g, lattice %zu: K_II %.3f %.3f; %ld open, %ld stick, "
                            "%ld slide, %ld passes\n", load[i].degrees, load[i].friction, k, K[0], K[1],
-                           s.contact_open, s.contact_stick, s.contact_sliding, s.contact_passes);
-            assert_int_equal (s.contact_open, 0);
-            assert_int_equal (s.contact_pieces, 14);
-            check_below (s.contact_overlap, 1e-13);    /* rounding: 1e-10 of a slip of some 1e-3 m */
+                           s.contact.open, s.contact.stick, s.contact.sliding, s.contact.passes);
+            assert_int_equal (s.contact.open, 0);
+            assert_int_equal (s.contact.pieces, 14);
+            check_below (s.contact.overlap, 1e-13);    /* rounding: 1e-10 of a slip of some 1e-3 m */
             if (load[i].degrees == 60) {               /* tan 30 degrees < 0.6: it sticks */
-                assert_true (s.contact_stick >= 12);
+                assert_true (s.contact.stick >= 12);
                 check_below (fmax (fabs (K[0]), fabs (K[1])), 0.03);
                 continue;
             }
-            assert_int_equal (s.contact_stick, 0);
+            assert_int_equal (s.contact.stick, 0);
             check_relative (K[0], 1, 0.02), check_relative (K[1], 1, 0.02);
             mean += (some == 1 ? 0.1 : 0.25) * (K[0] + K[1]);
         }
@@ -97,16 +97,16 @@ static void units_and_mirrors_do_not_count (void **state)
     pg_statistics s, t;
     closed_case l = { .load = 0.7, .friction = 0.3, .shift = { 0.2, 0.1 }, .unit = 1, .n = 8 };
     measure (&l, 1, K, &s);
-    assert_true (s.contact_sliding > 0);
+    assert_true (s.contact.sliding > 0);
     closed_case small = l, mirrored = l;
     small.unit = 1e-3;
     mirrored.mirrored = 1, mirrored.shift[0] = -0.2;
     measure (&small, 1, other, &t);
     for (int i = 0; i < 2; i++) check_relative (other[i], K[i], 1e-9);
-    check_relative (t.energy_friction, s.energy_friction * 1e-9, 1e-9);
+    check_relative (t.energy.friction, s.energy.friction * 1e-9, 1e-9);
     measure (&mirrored, 1, other, &t);
     for (int i = 0; i < 2; i++) check_relative (other[i], K[1 - i], 1e-9);
-    check_relative (t.energy_friction, s.energy_friction, 1e-9);
+    check_relative (t.energy.friction, s.energy.friction, 1e-9);
     measure (&l, 2, other, &t);
     for (int i = 0; i < 2; i++) assert_true (other[i] == K[i]);
 }
@@ -127,10 +127,10 @@ static void states_scale_with_the_load (void **state)
     for (size_t i = 0; i < fixed.state->ndof; i++) largest = fmax (largest, fabs (fixed.state->d[i]));
     for (size_t i = 0; i < fixed.state->ndof; i++)
         check_scaled (event.state->d[i], fixed.state->d[i], 1e-9, largest);
-    check_relative (t->energy_friction, s->energy_friction, 1e-9);
-    assert_true (s->energy_friction > 0.01 * s->energy_strain);
-    check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-9, s->energy_external);
-    check_scaled (t->energy_external - t->energy_strain - t->energy_friction, 0, 1e-9, t->energy_external);
+    check_relative (t->energy.friction, s->energy.friction, 1e-9);
+    assert_true (s->energy.friction > 0.01 * s->energy.strain);
+    check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-9, s->energy.external);
+    check_scaled (t->energy.external - t->energy.strain - t->energy.friction, 0, 1e-9, t->energy.external);
     clear (&fixed), clear (&event);
 }
 
@@ -155,11 +155,11 @@ static void slip_remembers_the_way (void **state)
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             const pg_statistics *s = pg_solver_report_now (r.solver);
-            check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-9,
-                          fabs (s->energy_strain) + fabs (s->energy_external));
-            assert_true (s->energy_friction >= before * (1 - 1e-9));
-            before = s->energy_friction;
-            top = fmax (top, s->energy_strain);
+            check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-9,
+                          fabs (s->energy.strain) + fabs (s->energy.external));
+            assert_true (s->energy.friction >= before * (1 - 1e-9));
+            before = s->energy.friction;
+            top = fmax (top, s->energy.strain);
         }
         kept[k] = before;
         clear (&r);
@@ -191,15 +191,15 @@ static void bending_closes_a_part (void **state)
             left = right, right = other;
         }
         print_message ("bending, plane %s, %s: K_I %.4f of the exact one, %ld of %ld open, %ld passes\n",
-                       plates[k].plane, at->name, right->K[0] / theory, s->contact_open, s->contact_pieces,
-                       s->contact_passes);
+                       plates[k].plane, at->name, right->K[0] / theory, s->contact.open, s->contact.pieces,
+                       s->contact.passes);
         assert_true (left->K[0] == 0);
         check_scaled (left->K[1], 0, 0.01, theory);
         check_scaled (right->K[1], 0, 0.02, theory);
         check_relative (right->K[0], theory, 0.01);
         /* open from -1/3 on: two thirds of the length, to half a piece */
-        check_relative ((double) s->contact_open / (double) s->contact_pieces, 2.0 / 3, 0.06);
-        check_below (s->contact_overlap, 1e-13);
+        check_relative ((double) s->contact.open / (double) s->contact.pieces, 2.0 / 3, 0.06);
+        check_below (s->contact.overlap, 1e-13);
         clear (&r);
     }
 }
@@ -237,20 +237,21 @@ static void wings_leave_a_closed_crack (void **state)
         const pg_crack_paths *w = r.state->paths;
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
         double largest = largest_of (r.state->d, r.state->ndof);
-        print_message ("overlap of faces %.2e of the largest displacement\n", s->overlap_max / largest);
-        check_below (s->overlap_max, 0.015 * largest);
-        assert_true (s->overlap_max > s->contact_overlap);
+        print_message ("overlap of faces %.2e of the largest displacement\n",
+                       s->contact.overlap_max / largest);
+        check_below (s->contact.overlap_max, 0.015 * largest);
+        assert_true (s->contact.overlap_max > s->contact.overlap);
         const double *x = w->cracks.crack[1].vertex, crack = atan2 (1, 1);
         double first = atan2 (x[3] - x[1], x[2] - x[0]), turn = fmod (first - crack + 4 * pi, pi);
         print_message ("wings, friction %g: kink %.1f degrees, grown %.3f %.3f, dissipated %.3f of the "
                        "energy, friction %.3g of the work\n", friction[k], turn * 180 / pi, w->tip[0].grown,
-                       w->tip[1].grown, s->energy_dissipated / s->energy_fracture,
-                       s->energy_friction / s->energy_external);
+                       w->tip[1].grown, s->energy.dissipated / s->energy.fracture,
+                       s->energy.friction / s->energy.external);
         check_relative (turn * 180 / pi, 70.53, 0.02);
         check_relative (w->tip[0].grown, w->tip[1].grown, 1e-9);
-        check_relative (s->energy_dissipated, s->energy_fracture, 0.08);  /* found: 0.95 */
-        assert_true (k ? s->energy_friction > 0.01 * s->energy_external
-                       : fabs (s->energy_friction) < 1e-12 * s->energy_external);
+        check_relative (s->energy.dissipated, s->energy.fracture, 0.08);  /* found: 0.95 */
+        assert_true (k ? s->energy.friction > 0.01 * s->energy.external
+                       : fabs (s->energy.friction) < 1e-12 * s->energy.external);
         for (int i = 0; i < 2; i++) {                  /* they end along the load */
             double e[2], from[2];
             pg_tip_chord (r.state->paths, (size_t) i, 0.25, from, e);
@@ -311,7 +312,7 @@ static void overlap_is_seen_on_the_faces (void **state)
         "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n");
     void *self;
     const pg_force_type *force = pg_solver_force (r.solver, &self);
-    const pg_crack *c = &r.problem->cracks.crack[0];
+    const pg_crack *c = &r.problem->crack.given.crack[0];
     pg_contact_pieces pieces;
     refresh (&r, NULL);
     check_ok (pg_contact_pieces_create (&pieces, r.problem, r.state));
@@ -358,10 +359,10 @@ static void stages_go_around_a_loop (void **state)
         const pg_contact_values *v = pg_solver_contact (r.solver, &n);
         const pg_statistics *s = pg_solver_report_now (r.solver);
         assert_true (step < 25 && n > 2 && n < PIECES);
-        slip[step] = v[n / 2].slip[0], friction[step] = s->energy_friction, strain[step] = s->energy_strain;
+        slip[step] = v[n / 2].slip[0], friction[step] = s->energy.friction, strain[step] = s->energy.strain;
         check_below (fabs (v[n / 2].shear[0]), 0.3 * v[n / 2].pressure * (1 + 1e-9));
         assert_true (friction[step] >= friction[step - 1] * (1 - 1e-12));
-        check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-9, 1);
+        check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-9, 1);
         sticks += v[n / 2].status == PG_CONTACT_STICK;
         if (v[n / 2].status == PG_CONTACT_STICK) check_relative (slip[step], slip[step - 1], 1e-9);
     }
@@ -389,10 +390,10 @@ static void a_load_returns_to_zero (void **state)
         double most = 0;
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
-            most = fmax (most, pg_solver_report_now (r.solver)->energy_strain);
+            most = fmax (most, pg_solver_report_now (r.solver)->energy.strain);
         }
         assert_true (r.options.event && most > 0);
-        check_below (pg_solver_report_now (r.solver)->energy_strain / most, 1e-12);
+        check_below (pg_solver_report_now (r.solver)->energy.strain / most, 1e-12);
         clear (&r);
     }
 }

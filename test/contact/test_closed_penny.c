@@ -80,7 +80,7 @@ static void a_flat_penny_carries_the_pressure (void **state)
         check_relative (force / area, 1, k == 2 ? 0.04 : 0.03);
         assert_true (least > (k == 2 ? 0.6 : 0.8) && most < (k == 2 ? 1.5 : 1.2));
         /* of 1e-3 m: forces are refined to 1e-12 of the residual */
-        check_below (pg_solver_report_now (r.solver)->contact_overlap, 1e-13);
+        check_below (pg_solver_report_now (r.solver)->contact.overlap, 1e-13);
         const pg_tip_values *f = pg_solver_tips (r.solver, &nfront);
         assert_true (nfront > 10);
         double opening = 2 * sqrt (4 / 3.14159265358979);
@@ -129,16 +129,16 @@ static void an_inclined_penny_slides (void **state)
         for (size_t i = 0; i < n; i++)
             slip = fmax (slip, hypot (hypot (v[i].slip[0], v[i].slip[1]), v[i].slip[2]));
         print_message ("%s: K off by %.4f of the largest, slip %.3g, %ld open %ld stick %ld slide\n",
-                       l.contact, off, slip, s->contact_open, s->contact_stick, s->contact_sliding);
+                       l.contact, off, slip, s->contact.open, s->contact.stick, s->contact.sliding);
         check_below (off, longer () ? cases[c].within : 0.035);       /* at 4 and 3.5 spacings */
-        check_below (s->contact_overlap, 1e-15);
-        assert_int_equal (s->contact_open, 0);
-        if (cases[c].left == 0) assert_true (s->contact_stick > s->contact_sliding);
-        else assert_int_equal (s->contact_stick, 0);
+        check_below (s->contact.overlap, 1e-15);
+        assert_int_equal (s->contact.open, 0);
+        if (cases[c].left == 0) assert_true (s->contact.stick > s->contact.sliding);
+        else assert_int_equal (s->contact.stick, 0);
         /* work = strain energy + friction, and what friction takes is not nothing */
-        double rest = s->energy_external - s->energy_strain - s->energy_friction;
-        check_scaled (rest, 0, 1e-9, s->energy_external);
-        if (c == 0) assert_true (s->energy_friction > 1e-3 * s->energy_strain);
+        double rest = s->energy.external - s->energy.strain - s->energy.friction;
+        check_scaled (rest, 0, 1e-9, s->energy.external);
+        if (c == 0) assert_true (s->energy.friction > 1e-3 * s->energy.strain);
         for (size_t i = 0; c == 0 && i < n; i++) {
             double shear = 0, work = 0, size = 0;
             for (int k = 0; k < 3; k++)
@@ -168,9 +168,9 @@ static void units_and_mirrors_do_not_count (void **state)
         run other = penny_run (&m);
         const pg_statistics *t = pg_solver_report_now (other.solver);
         double scale = k == 0 ? 1e-9 : 1;
-        assert_int_equal (t->contact_pieces, s->contact_pieces);
-        check_relative (t->energy_strain, scale * s->energy_strain, k == 2 ? 1e-12 : 1e-9);
-        check_relative (t->energy_friction, scale * s->energy_friction, k == 1 ? 0.05 : 1e-7);
+        assert_int_equal (t->contact.pieces, s->contact.pieces);
+        check_relative (t->energy.strain, scale * s->energy.strain, k == 2 ? 1e-12 : 1e-9);
+        check_relative (t->energy.friction, scale * s->energy.friction, k == 1 ? 0.05 : 1e-7);
         clear (&other);
     }
     clear (&r);
@@ -242,9 +242,9 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
     keep (&a, &t, 0);
     keep (&b, &t, 1);
     advance_alike (&a, &b);
-    assert_true (pg_solver_report_now (a.solver)->energy_friction > 0);
-    assert_true (pg_solver_report_now (a.solver)->energy_friction
-                 == pg_solver_report_now (b.solver)->energy_friction);
+    assert_true (pg_solver_report_now (a.solver)->energy.friction > 0);
+    assert_true (pg_solver_report_now (a.solver)->energy.friction
+                 == pg_solver_report_now (b.solver)->energy.friction);
     clear (&a), clear (&b);
     pg_free (t.byte);
 }

@@ -64,8 +64,8 @@ static void same_state (const run *a, const run *b, double tolerance)
 static void balances (const run *r, double tolerance)
 {
     const pg_statistics *s = pg_solver_report_now (r->solver);
-    check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, tolerance,
-                  fabs (s->energy_external) + fabs (s->energy_strain));
+    check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, tolerance,
+                  fabs (s->energy.external) + fabs (s->energy.strain));
 }
 
 /* A confinement that is there from the start, then a growing load: pieces begin to slide one after the other,
@@ -85,10 +85,10 @@ static void a_ramp_ends_in_the_direct_solution (void **state)
         to_the_end (&direct);
         const pg_statistics *s = pg_solver_report_now (event.solver);
         print_message ("ramp, %s: %ld open %ld stick %ld slide, %ld changes, friction %.3g of the work\n",
-                       contact[i], s->contact_open, s->contact_stick, s->contact_sliding, s->contact_changes,
-                       s->energy_friction / s->energy_external);
+                       contact[i], s->contact.open, s->contact.stick, s->contact.sliding, s->contact.changes,
+                       s->energy.friction / s->energy.external);
         same_state (&event, &direct, 1e-10);
-        check_below (s->contact_overlap, 1e-14);
+        check_below (s->contact.overlap, 1e-14);
         clear (&event), clear (&direct);
     }
 }
@@ -115,12 +115,12 @@ static void stages_go_around_a_loop (void **state)
         size_t n;
         const pg_contact_values *v = pg_solver_contact (event.solver, &n);
         long k = (long) round (event.state->factor);
-        friction[k] = s->energy_friction, slip[k] = v[n / 2].slip[0], strain[k] = s->energy_strain;
+        friction[k] = s->energy.friction, slip[k] = v[n / 2].slip[0], strain[k] = s->energy.strain;
         size = fmax (size, largest (&event));
         print_message ("t %g: slip %.5g, friction %.5g, strain %.5g, %ld changes so far, balance %.1e\n",
-                       event.state->factor, slip[k], friction[k], strain[k], s->contact_changes,
-                       fabs (s->energy_external - s->energy_strain - s->energy_friction)
-                           / fmax (s->energy_external, 1e-300));
+                       event.state->factor, slip[k], friction[k], strain[k], s->contact.changes,
+                       fabs (s->energy.external - s->energy.strain - s->energy.friction)
+                           / fmax (s->energy.external, 1e-300));
     }
     assert_int_equal (steps, 6);                       /* changes of status are no steps of their own */
     check_relative (slip[4], slip[2], 1e-9);
@@ -128,7 +128,7 @@ static void stages_go_around_a_loop (void **state)
     for (int k = 1; k < 5; k++) assert_true (friction[k + 1] > friction[k]);
     assert_true (friction[3] > 1.3 * friction[2]);
     check_scaled (largest (&event), 0, 1e-10, size);
-    assert_true (pg_solver_report_now (event.solver)->contact_changes >= 12);
+    assert_true (pg_solver_report_now (event.solver)->contact.changes >= 12);
     clear (&event);
 }
 
@@ -151,7 +151,7 @@ static void the_way_back_is_that_of_small_steps (void **state)
     to_the_end (&fixed);
     same_state (&event, &fixed, 1e-3);
     const pg_statistics *s = pg_solver_report_now (event.solver), *t = pg_solver_report_now (fixed.solver);
-    check_relative (s->energy_friction, t->energy_friction, 5e-3);
+    check_relative (s->energy.friction, t->energy.friction, 5e-3);
     clear (&event), clear (&fixed);
 }
 
@@ -178,9 +178,9 @@ static void growth_is_that_of_proportional_loads (void **state)
         falls += one.state->factor < before, before = one.state->factor;
         const pg_statistics *s = pg_solver_report_now (one.solver), *t = pg_solver_report_now (two.solver);
         if (pg_solver_done (one.solver, one.state)) break;             /* it falls far after the last one */
-        check_relative (t->energy_external, s->energy_external, 1e-9);
-        check_relative (t->energy_friction, s->energy_friction, 1e-9);
-        check_relative (t->energy_dissipated, s->energy_dissipated, 1e-8);
+        check_relative (t->energy.external, s->energy.external, 1e-9);
+        check_relative (t->energy.friction, s->energy.friction, 1e-9);
+        check_relative (t->energy.dissipated, s->energy.dissipated, 1e-8);
     }
     assert_true (falls >= 1);
     assert_int_equal (one.state->paths->cracks.n, two.state->paths->cracks.n);
@@ -212,7 +212,7 @@ static void a_gauge_ends_a_stage_between_changes (void **state)
         assert_string_equal (record[k].why, "gauge");
         check_relative (record[k].gauge[0], k == 1 ? -20e-3 : -9e-3, 1e-9);
     }
-    assert_true (pg_solver_report_now (r.solver)->contact_changes >= 2);
+    assert_true (pg_solver_report_now (r.solver)->contact.changes >= 2);
     clear (&r);
 }
 
@@ -252,8 +252,8 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
             for (long i = 0; i <= steps; i++) advance (&c);
             while (!pg_solver_done (c.solver, c.state)) {
                 advance_alike (&c, &b);
-                assert_true (pg_solver_report_now (b.solver)->energy_friction
-                             == pg_solver_report_now (c.solver)->energy_friction);
+                assert_true (pg_solver_report_now (b.solver)->energy.friction
+                             == pg_solver_report_now (c.solver)->energy.friction);
             }
             clear (&b), clear (&c);
             pg_free (t.byte);
@@ -284,8 +284,8 @@ static void units_and_threads_do_not_count (void **state)
         assert_true (two.state->d[i] == one.state->d[i]);
     }
     const pg_statistics *s = pg_solver_report_now (one.solver), *t = pg_solver_report_now (small.solver);
-    check_relative (t->energy_friction, 1e-9 * s->energy_friction, 1e-9);
-    assert_int_equal (s->contact_changes, t->contact_changes);
+    check_relative (t->energy.friction, 1e-9 * s->energy.friction, 1e-9);
+    assert_int_equal (s->contact.changes, t->contact.changes);
     clear (&one), clear (&small), clear (&two);
 }
 
@@ -314,7 +314,7 @@ static void confinement_holds_wings_back (void **state)
         }
         const pg_statistics *s = pg_solver_report_now (r.solver);
         print_message ("confined by %g: first wing at %.5g, %ld events, dissipated %.3f of the energy\n",
-                       0.5 * k, first[k], s->events, s->energy_dissipated / s->energy_fracture);
+                       0.5 * k, first[k], s->events, s->energy.dissipated / s->energy.fracture);
         assert_int_equal (s->events, 4);
         clear (&r);
     }

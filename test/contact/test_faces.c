@@ -24,7 +24,7 @@ static void platens_do_not_hide_faces_that_overlap (void **state)
         int told = 0;
         for (size_t k = 0; k < s->nwarning; k++)
             told |= strstr (s->warning[k], "contact is not modelled") != NULL;
-        overlap[i] = s->overlap_max;
+        overlap[i] = s->contact.overlap_max;
         assert_int_equal (told, i == 0);
         clear (&r);
     }

@@ -72,8 +72,8 @@ static void corners_do_not_overlap (void **state)
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     double most = 0;
     for (size_t i = 0; i < r.state->ndof; i++) most = fmax (most, fabs (r.state->d[i]));
-    print_message ("overlap %.2e of the largest displacement\n", s->overlap_max / most);
-    check_below (s->overlap_max, 0.03 * most);
+    print_message ("overlap %.2e of the largest displacement\n", s->contact.overlap_max / most);
+    check_below (s->contact.overlap_max, 0.03 * most);
     clear (&r);
 }
 

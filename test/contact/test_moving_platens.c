@@ -48,13 +48,14 @@ static void walls_throw_back (void **state)
         size_t n;
         const pg_platen_values *platens = pg_solver_platens (r.solver, &n);
         print_message ("wall: momentum %.4f of that before, energy %.1e, overlap %.3g spacings\n",
-                       after / before, s->energy_dissipated / s->energy_external, s->overlap_max / unit);
+                       after / before, s->energy.dissipated / s->energy.external,
+                       s->contact.overlap_max / unit);
         check_relative (after, -before, 0.1);
         /* a face that meets a plane all at once, a length of 20 spacings: elsewhere it is below 1e-3 */
-        check_below (fabs (s->energy_dissipated), 2e-3 * s->energy_external);
+        check_below (fabs (s->energy.dissipated), 2e-3 * s->energy.external);
         assert_int_equal (n, 1);
-        assert_true (s->contact_touching == 0 && platens[0].force[0] == 0 && platens[0].motion[0] == 0);
-        assert_true (s->overlap_max > 0 && s->overlap_max < 0.05 * unit);
+        assert_true (s->contact.touching == 0 && platens[0].force[0] == 0 && platens[0].motion[0] == 0);
+        assert_true (s->contact.overlap_max > 0 && s->contact.overlap_max < 0.05 * unit);
         clear (&r);
     }
 }
@@ -73,10 +74,10 @@ static void impactors_share_momentum (void **state)
     const pg_platen_values *platen = pg_solver_platens (r.solver, &n);
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     print_message ("impactor: body %.4f %.4f, energy %.2e, friction %.3g of %.3g J, moved %.3f %.3f\n", p, q,
-                   s->energy_dissipated / s->energy_external, s->energy_friction, s->energy_external,
+                   s->energy.dissipated / s->energy.external, s->energy.friction, s->energy.external,
                    platen->motion[0], platen->motion[1]);
-    check_below (fabs (s->energy_dissipated), 1e-3 * s->energy_external);
-    assert_true (p < -60 && s->energy_friction > 0);
+    check_below (fabs (s->energy.dissipated), 1e-3 * s->energy.external);
+    assert_true (p < -60 && s->energy.friction > 0);
     clear (&r);
 }
 
@@ -101,7 +102,7 @@ static void impulses_are_equal_and_opposite (void **state)
                dt = 0.005, touched = 0, size = 0;
         pg_moving_platens *w;
         check_ok (pg_moving_platens_create (&w, r.problem, &r.options.contact, d));
-        memcpy (start, r.problem->platen->velocity, sizeof start);
+        memcpy (start, r.problem->boundary.platen->velocity, sizeof start);
         for (int step = 0; step <= 120; step++) {
             memset (f, 0, n * d * sizeof *f);
             check_ok (pg_moving_platens_add (w, r.state->d, v, step * dt, step ? dt : 0, dt,
@@ -142,11 +143,11 @@ static void prescribed_motion_does_work (void **state)
     double p = momentum (&r, 0, &size);
     print_message ("pushed: mean velocity %.4f of twice the platen's, work %.4f J, energy %.1e, impulse "
         "%.3f\n",
-                   p / 240 / 0.6, s->energy_external, s->energy_dissipated / s->energy_external, impulse / p);
+                   p / 240 / 0.6, s->energy.external, s->energy.dissipated / s->energy.external, impulse / p);
     check_relative (p / 240, 0.6, 0.05);               /* e = 1 */
-    check_relative (s->energy_external, 0.3 * p, 1e-3);          /* force times velocity, over time */
+    check_relative (s->energy.external, 0.3 * p, 1e-3);          /* force times velocity, over time */
     check_relative (impulse, p, 0.02);
-    check_below (fabs (s->energy_dissipated), 1e-3 * s->energy_external);
+    check_below (fabs (s->energy.dissipated), 1e-3 * s->energy.external);
     clear (&r);
 }
 
@@ -164,11 +165,11 @@ static void friction_is_coulombs (void **state)
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     print_message ("friction: %.5f of mu N, speed left %.4f (%.4f), friction work %.4g of %.4g J, energy "
         "%.1e\n",
-                   lost / (mu * normal), momentum (&r, 0, &size) / 240, 6 - mu * g * T, s->energy_friction,
-                   0.5 * 240 * (36 - pow (6 - mu * g * T, 2)), s->energy_dissipated / s->energy_external);
+                   lost / (mu * normal), momentum (&r, 0, &size) / 240, 6 - mu * g * T, s->energy.friction,
+                   0.5 * 240 * (36 - pow (6 - mu * g * T, 2)), s->energy.dissipated / s->energy.external);
     check_relative (lost, mu * normal, 0.01);
     check_relative (momentum (&r, 0, &size) / 240, 6 - mu * g * T, 0.05);
-    check_below (fabs (s->energy_dissipated), 1e-3 * s->energy_external);
+    check_below (fabs (s->energy.dissipated), 1e-3 * s->energy.external);
     clear (&r);
 }
 
@@ -189,7 +190,7 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
         advance (&plain);
         assert_memory_equal (one.state->d, plain.state->d, one.state->ndof * sizeof *one.state->d);
         if (++row == 60) {
-            assert_true (pg_solver_report (one.solver, one.state)->contact_touching > 0);
+            assert_true (pg_solver_report (one.solver, one.state)->contact.touching > 0);
             keep (&one, &t, 0), keep (&back, &t, 1);
             /* a step that is refused is as if it had not been */
             double v = back.state->v[0];
@@ -206,8 +207,9 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
     }
     const pg_statistics *a = pg_solver_report (one.solver, one.state),
                         *b = pg_solver_report (back.solver, back.state);
-    assert_true (a->energy_friction == b->energy_friction && a->energy_friction > 0
-                 && a->energy_external == b->energy_external && a->overlap_max == b->overlap_max);
+    assert_true (a->energy.friction == b->energy.friction && a->energy.friction > 0
+                 && a->energy.external == b->energy.external
+                 && a->contact.overlap_max == b->contact.overlap_max);
     pg_free (t.byte);
     clear (&one), clear (&four), clear (&plain), clear (&back);
 }

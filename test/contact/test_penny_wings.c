@@ -168,7 +168,7 @@ static void check_pieces (const penny *l, const run *r)
     for (size_t t = w->nfirst; t < w->cracks.n; t++)
         grown += area_in_body (r->problem, w->cracks.crack[t].vertex);
     /* the triangles begin so far behind the front that they overlap with what the disc cuts */
-    double inner = l->radius - 2 * r->problem->tip_offset - 0.1, whole = PI * inner * inner + grown;
+    double inner = l->radius - 2 * r->problem->crack.tip_offset - 0.1, whole = PI * inner * inner + grown;
     print_message ("%zu pieces, area %.3f of %.3f, %zu go around the kink\n", pieces.n, area, whole, mixed);
     check_relative (area, whole, 0.03);
     assert_int_equal (mixed, 0);
@@ -204,13 +204,13 @@ static void wings_begin_by_sliding (void **state)
         if (a.step.event)
             print_message ("event %ld, load %.4f, area %.3f, dissipated less friction %.3f of its\n",
                            a.state->events, a.state->factor, a.state->surfaces->area,
-                           s->energy_dissipated / taken);
+                           s->energy.dissipated / taken);
         /* the first strip is as wide as two thirds (half) of the disc */
-        if (a.state->events == 1) check_relative (s->energy_dissipated, taken, longer () ? 0.2 : 0.35);
+        if (a.state->events == 1) check_relative (s->energy.dissipated, taken, longer () ? 0.2 : 0.35);
         if (pg_solver_done (a.solver, a.state)) break;
     }
-    assert_true (s->energy_friction > 0);
-    check_below (s->contact_overlap, 1e-12);
+    assert_true (s->energy.friction > 0);
+    check_below (s->contact.overlap, 1e-12);
     clear (&a);
 }
 
@@ -285,21 +285,21 @@ static void an_open_disc_closes_by_and_by (void **state)
     tape t = { 0 };
     to_the_end (&fixed);
     const pg_statistics *s = pg_solver_report_now (a.solver);
-    while (s->contact_changes == 0) advance (&a);
+    while (s->contact.changes == 0) advance (&a);
     assert_true (a.state->factor > 0.2 && a.state->factor < 1);
     keep (&a, &t, 0), keep (&b, &t, 1);
     while (!pg_solver_done (a.solver, a.state)) advance_alike (&a, &b);
-    print_message ("%ld changes of status, %ld pieces\n", s->contact_changes, s->contact_pieces);
+    print_message ("%ld changes of status, %ld pieces\n", s->contact.changes, s->contact.pieces);
     check_relative (a.state->factor, 1, 1e-15);
-    assert_true (s->contact_changes >= s->contact_pieces);
-    double off = 0, size = 0, rest = s->energy_external - s->energy_strain;
+    assert_true (s->contact.changes >= s->contact.pieces);
+    double off = 0, size = 0, rest = s->energy.external - s->energy.strain;
     for (size_t i = 0; i < a.state->ndof; i++) {
         off = fmax (off, fabs (a.state->d[i] - fixed.state->d[i]));
         size = fmax (size, fabs (fixed.state->d[i]));
     }
     check_scaled (off, 0, 1e-9, size);
-    check_scaled (rest, 0, 1e-9, s->energy_external);
-    assert_true (s->energy_friction == 0);
+    check_scaled (rest, 0, 1e-9, s->energy.external);
+    assert_true (s->energy.friction == 0);
     clear (&a), clear (&b), clear (&fixed);
     pg_free (t.byte);
 }

@@ -45,7 +45,7 @@ static void a_block_is_pressed_uniformly (void **state)
         const pg_statistics *s = pg_solver_report_now (r.solver);
         double pressure = 0.01 * cases[i].modulus;
         check_pieces (&r, pressure, 0, 1e-10);
-        assert_int_equal (s->contact_pieces, 10);      /* two spacings each */
+        assert_int_equal (s->contact.pieces, 10);      /* two spacings each */
         double mean = 0;                               /* what nothing resists leaves it in its place */
         for (size_t k = 0; k < r.problem->cloud.n; k++) mean += r.state->d[2*k];
         check_scaled (mean / (double) r.problem->cloud.n, 0, 1e-12, 0.02);
@@ -54,8 +54,8 @@ static void a_block_is_pressed_uniformly (void **state)
         check_scaled (platen_of (&r, 1)->force[0], 0, 1e-11, pressure);
         check_scaled (platen_of (&r, 1)->force[5], 0, 1e-11, pressure);
         check_relative (platen_of (&r, 1)->motion[1], -0.02, 1e-15);
-        check_relative (s->energy_strain, 0.5 * 0.5 * pressure * 0.02, 1e-10);
-        check_relative (s->energy_external, s->energy_strain, 1e-10);
+        check_relative (s->energy.strain, 0.5 * 0.5 * pressure * 0.02, 1e-10);
+        check_relative (s->energy.external, s->energy.strain, 1e-10);
         assert_true (s->nwarning == 0);
         clear (&r);
     }
@@ -78,7 +78,7 @@ static void a_seat_tilts_until_it_lies_flat (void **state)
         const pg_statistics *s = pg_solver_report_now (r.solver);
         check_relative (head->force[1], -5, 1e-11);
         check_relative (head->force[0], 0.05, 1e-9);   /* along its normal of the start */
-        check_relative (s->energy_external, s->energy_strain + s->energy_friction, 1e-9);
+        check_relative (s->energy.external, s->energy.strain + s->energy.friction, 1e-9);
         if (tilts) {
             size_t n;
             const pg_contact_values *v = pg_solver_contact (r.solver, &n);
@@ -108,14 +108,14 @@ static void platens_drag_by_friction (void **state)
         check_relative (platen_of (&r, 1)->force[1], -10, 1e-10);
         check_scaled (platen_of (&r, 0)->force[0], -platen_of (&r, 1)->force[0], 1e-10, 10);
         assert_true (platen_of (&r, 1)->force[0] <= 2 * (1 + 1e-9));
-        assert_true (s->energy_friction >= before - 1e-12 * s->energy_external);
-        before = s->energy_friction;
+        assert_true (s->energy.friction >= before - 1e-12 * s->energy.external);
+        before = s->energy.friction;
         slid = platen_of (&r, 1)->force[0];
     }
     const pg_statistics *s = pg_solver_report_now (r.solver);
     check_relative (slid, 2, 1e-8);
-    assert_true (s->energy_friction > 0.1 * s->energy_external);
-    check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-2, s->energy_external);
+    assert_true (s->energy.friction > 0.1 * s->energy.external);
+    check_scaled (s->energy.external - s->energy.strain - s->energy.friction, 0, 1e-2, s->energy.external);
     clear (&r);
 }
 
@@ -444,8 +444,8 @@ static void stages_move_platens (void **state)
         const pg_statistics *s = pg_solver_report_now (r.solver);
         force[k] = -platen_of (&r, 1)->force[1];
         check_relative (platen_of (&r, 0)->force[1], force[k] > 0 ? force[k] : 1, force[k] > 0 ? 1e-9 : 1);
-        assert_true (s->energy_friction >= friction - 1e-12 * s->energy_strain);
-        friction = s->energy_friction;
+        assert_true (s->energy.friction >= friction - 1e-12 * s->energy.strain);
+        friction = s->energy.friction;
     }
     check_relative (force[4], 10, 0.02);               /* half the thickness times E times 2 %, a bit more */
     assert_true (force[8] > force[4] + 0.1 && friction > 0);   /* confined: nu times the pressure more */
@@ -476,7 +476,7 @@ static void cracks_grow_between_platens (void **state)
         const pg_statistics *s = pg_solver_report_now (r.solver);
         assert_int_equal (s->events, 3);
         check_relative (r.state->paths->tip[0].grown, r.state->paths->tip[1].grown, 1e-9);
-        factor[k] = r.state->factor, energy[k] = s->energy_dissipated;
+        factor[k] = r.state->factor, energy[k] = s->energy.dissipated;
         clear (&r);
     }
     check_relative (factor[1], factor[0], 1e-3);
@@ -503,8 +503,8 @@ static void a_run_goes_on_from_its_checkpoint (void **state)
         const pg_platen_values *u = pg_solver_platens (a.solver, &n), *v = pg_solver_platens (b.solver, &n);
         assert_memory_equal (u, v, n * sizeof *u);
     }
-    assert_true (pg_solver_report_now (a.solver)->energy_external
-                 == pg_solver_report_now (b.solver)->energy_external);
+    assert_true (pg_solver_report_now (a.solver)->energy.external
+                 == pg_solver_report_now (b.solver)->energy.external);
     clear (&a), clear (&b);
 }
 

@@ -72,9 +72,9 @@ static void check_law (const run *r, pg_short_range *c, const pg_point_ways *w, 
                     before += (y - back) * (y - back);
             }
             int joined = 0;
-            const pg_family *f = &r->problem->rows[PG_NODES].family;
+            const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
             for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-                joined |= (size_t) f->node[e] == j && r->state->alive[r->problem->first_bond[PG_NODES] + e];
+                joined |= (size_t) f->node[e] == j && r->state->alive[r->problem->bonds.first[PG_NODES] + e];
             double reach = fmin (1, sqrt (start));
             if (joined || now < reach * reach) continue;
             out->worst = fmax (out->worst, reach - sqrt (end));
@@ -151,9 +151,9 @@ static void bars_exchange_velocities (void **state)
             while (!pg_solver_done (r.solver, r.state)) {
                 advance (&r);
                 const pg_statistics *s = pg_solver_report (r.solver, r.state);
-                if (s->contact_touching > 0 && isnan (first)) first = r.step.time;
-                if (s->contact_touching > 0) last = r.step.time;
-                off = fmax (off, fabs (s->energy_dissipated / s->energy_external));
+                if (s->contact.touching > 0 && isnan (first)) first = r.step.time;
+                if (s->contact.touching > 0) last = r.step.time;
+                off = fmax (off, fabs (s->energy.dissipated / s->energy.external));
             }
             momentum_of (&r, &p, &turn, &size, &size_turn);
             for (size_t i = 0; i < r.problem->cloud.n; i++)
@@ -162,10 +162,10 @@ static void bars_exchange_velocities (void **state)
             print_message ("%d points: contact %.4f of 2 L / c, velocities %.4f %.4f, energy %.1e, overlap "
                            "%.1e\n", n,
                            (last - first) / (2 * n / 10.0), mean[0] / 0.01, mean[1] / 0.01, off,
-                               s->overlap_max);
+                               s->contact.overlap_max);
             check_relative (p, 0.01 * 2 * n, 1e-12);
             check_below (off, 1e-8);
-            check_below (s->overlap_max, 1e-6);
+            check_below (s->contact.overlap_max, 1e-6);
             if (n == 200) check_relative (last - first, 2 * n / 10.0, 0.03);
             check_absolute (mean[1] / 0.01, 1, n == 200 ? 0.02 : 0.1);
             clear (&r);
@@ -186,20 +186,20 @@ static void disks_keep_momentum_and_energy (void **state)
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             const pg_statistics *s = pg_solver_report (r.solver, r.state);
-            off = fmax (off, fabs (s->energy_dissipated / s->energy_external));
+            off = fmax (off, fabs (s->energy.dissipated / s->energy.external));
         }
         momentum_of (&r, p, &turn, &size, &size_turn);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
         print_message ("%s, friction %g: energy %.2e, friction %.3g of the energy, overlap %.1e spacings\n",
-                       force[k],
-                       l.friction, off, s->energy_friction / s->energy_external, s->overlap_max / l.unit);
+                       force[k], l.friction, off, s->energy.friction / s->energy.external,
+                       s->contact.overlap_max / l.unit);
         for (int a = 0; a < 2; a++) check_scaled (p[a], p0[a], 1e-12, size);
         if (k == 0) check_scaled (turn, turn0, 1e-11, size_turn);
         /* where bonds turn their force is no linear one, and leapfrog itself keeps less */
         check_below (off, strstr (force[k], "finite") ? 2e-3 : 1e-8);
-        check_below (s->overlap_max / l.unit, 1e-5);
-        if (l.friction > 0) assert_true (s->energy_friction > 1e-3 * s->energy_external);
-        else assert_true (s->energy_friction == 0);
+        check_below (s->contact.overlap_max / l.unit, 1e-5);
+        if (l.friction > 0) assert_true (s->energy.friction > 1e-3 * s->energy.external);
+        else assert_true (s->energy.friction == 0);
         clear (&r);
     }
 }
@@ -221,17 +221,17 @@ static void bodies_may_touch_at_the_start (void **state)
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
-        off = fmax (off, fabs (s->energy_dissipated / (0.5 * 40 * 0.01)));
+        off = fmax (off, fabs (s->energy.dissipated / (0.5 * 40 * 0.01)));
     }
     momentum_of (&r, p, &turn, &size, &size_turn);
     for (size_t i = 0; i < r.problem->cloud.n; i++)
         right += r.problem->cloud.x[2 * i] > 10 ? r.state->v[2 * i] / 40 : 0;
     print_message ("touching bars: energy %.1e, second bar at %.4f of the velocity, overlap %.1e\n", off,
                    right / 0.1,
-                   pg_solver_report (r.solver, r.state)->overlap_max);
+                   pg_solver_report (r.solver, r.state)->contact.overlap_max);
     check_relative (p[0], 0.1 * 40, 1e-12);
     check_below (off, 1e-8);
-    check_below (pg_solver_report (r.solver, r.state)->overlap_max, 1e-6);
+    check_below (pg_solver_report (r.solver, r.state)->contact.overlap_max, 1e-6);
     check_absolute (right / 0.1, 1, 0.1);
     clear (&r);
 }
@@ -255,7 +255,7 @@ static void blocks_slide_with_friction (void **state)
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
-        off = fmax (off, fabs (s->energy_dissipated / (0.5 * m * 2e-4)));
+        off = fmax (off, fabs (s->energy.dissipated / (0.5 * m * 2e-4)));
     }
     for (size_t i = 0; i < r.problem->cloud.n; i++)
         for (size_t k = 0; k < 2; k++)
@@ -264,11 +264,11 @@ static void blocks_slide_with_friction (void **state)
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     print_message ("impulses along over across %.5f of the coefficient; energy %.1e, friction %.3f of it, "
                    "overlap %.1e\n",
-                   shear / press / 0.2, off, s->energy_friction / (0.5 * m * 2e-4), s->overlap_max);
-    assert_true (press > 0.01 * m && s->energy_friction > 0);
+                   shear / press / 0.2, off, s->energy.friction / (0.5 * m * 2e-4), s->contact.overlap_max);
+    assert_true (press > 0.01 * m && s->energy.friction > 0);
     check_relative (shear / press, 0.2, 0.02);
     check_below (off, 1e-3);
-    check_below (s->overlap_max, 1e-4);
+    check_below (s->contact.overlap_max, 1e-4);
     clear (&r);
 }
 
@@ -288,7 +288,7 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
         assert_memory_equal (one.state->d, simple.state->d, one.state->ndof * sizeof *one.state->d);
         if (++row == 120) {
             const pg_statistics *s = pg_solver_report (one.solver, one.state);
-            assert_true (s->energy_friction > 0 && one.state->broken > 0);
+            assert_true (s->energy.friction > 0 && one.state->broken > 0);
             keep (&one, &t, 0), keep (&back, &t, 1);
         } else if (row > 120) {
             advance (&back);
@@ -298,11 +298,12 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
     }
     const pg_statistics *a = pg_solver_report (one.solver, one.state),
                         *b = pg_solver_report (back.solver, back.state);
-    assert_true (row > 150 && a->energy_friction == b->energy_friction
-                 && a->energy_contact == b->energy_contact
-                 && a->overlap_max == b->overlap_max);
-    print_message ("with %ld broken bonds: overlap %.1e spacings\n", one.state->broken, a->overlap_max);
-    check_below (a->overlap_max, 1e-4);
+    assert_true (row > 150 && a->energy.friction == b->energy.friction
+                 && a->energy.contact == b->energy.contact
+                 && a->contact.overlap_max == b->contact.overlap_max);
+    print_message ("with %ld broken bonds: overlap %.1e spacings\n", one.state->broken,
+                   a->contact.overlap_max);
+    check_below (a->contact.overlap_max, 1e-4);
     pg_free (t.byte);
     clear (&one), clear (&four), clear (&simple), clear (&back);
 }
@@ -313,15 +314,15 @@ static void refused_steps_leave_no_trace (void **state)
     disks l = { .unit = 1, .friction = 0.5, .threads = 1, .how = HOW };
     run a = disks_run (&l), b = disks_run (&l);
     for (int row = 0; row < 110; row++) advance (&a), advance (&b);
-    double friction = pg_solver_report (b.solver, b.state)->energy_friction, v = b.state->v[0];
+    double friction = pg_solver_report (b.solver, b.state)->energy.friction, v = b.state->v[0];
     assert_true (friction > 0);
     b.state->v[0] = INFINITY;
     check_fails (pg_solver_step (b.solver, b.state, &b.step), PG_E_EQUILIBRIUM);
     b.state->v[0] = v;
-    assert_true (pg_solver_report (b.solver, b.state)->energy_friction == friction);
+    assert_true (pg_solver_report (b.solver, b.state)->energy.friction == friction);
     for (int row = 0; row < 20; row++) advance_alike (&a, &b);
-    assert_true (pg_solver_report (a.solver, a.state)->energy_friction
-                 == pg_solver_report (b.solver, b.state)->energy_friction);
+    assert_true (pg_solver_report (a.solver, a.state)->energy.friction
+                 == pg_solver_report (b.solver, b.state)->energy.friction);
     clear (&a), clear (&b);
 }
 
@@ -335,8 +336,8 @@ static void units_and_directions_do_not_matter (void **state)
     to_the_end (&a), to_the_end (&b), to_the_end (&c);
     const pg_statistics *s = pg_solver_report (a.solver, a.state), *t = pg_solver_report (b.solver, b.state),
                         *u = pg_solver_report (c.solver, c.state);
-    check_relative (t->energy_friction, s->energy_friction, 1e-5);
-    check_relative (u->energy_friction, s->energy_friction * 1e-9, 1e-5);
+    check_relative (t->energy.friction, s->energy.friction, 1e-5);
+    check_relative (u->energy.friction, s->energy.friction * 1e-9, 1e-5);
     clear (&a), clear (&b), clear (&c);
 }
 

@@ -66,16 +66,16 @@ static void slip_surfaces_grow_as_palmer_and_rice (void **state)
         print_message ("strip %zu: load %.4f of the exact one, %.1f spacings, %.1g off the line, "
                        "dissipated %.4f, friction %.3g of the work\n", k, sum / theory, tip->grown / h,
                        (tip->x[1] - line) / h,
-                       s->energy_dissipated / s->energy_fracture, s->energy_friction / s->energy_external);
+                       s->energy.dissipated / s->energy.fracture, s->energy.friction / s->energy.external);
         check_relative (sum, theory, 0.035);           /* eight spacings to the half height; found: 3.3 % */
         check_relative (tip->grown, 2 * EVENTS * h, 1e-9);
         check_scaled (tip->x[1], line, 1e-6, h);
-        check_relative (s->energy_dissipated, s->energy_fracture, 0.1);
-        check_relative (s->energy_fracture, G_II * p->unit * tip->grown * p->unit, 1e-9);
-        assert_int_equal (s->contact_open, 0);
-        assert_int_equal (s->contact_sliding, s->contact_pieces);
-        assert_true (p->friction > 0 ? s->energy_friction > 0.1 * s->energy_external
-                                     : fabs (s->energy_friction) < 1e-12 * s->energy_external);
+        check_relative (s->energy.dissipated, s->energy.fracture, 0.1);
+        check_relative (s->energy.fracture, G_II * p->unit * tip->grown * p->unit, 1e-9);
+        assert_int_equal (s->contact.open, 0);
+        assert_int_equal (s->contact.sliding, s->contact.pieces);
+        assert_true (p->friction > 0 ? s->energy.friction > 0.1 * s->energy.external
+                                     : fabs (s->energy.friction) < 1e-12 * s->energy.external);
         clear (&r);
     }
     for (int n = 0; n < EVENTS; n++) check_relative (load[3][n], load[1][n], 1e-9);

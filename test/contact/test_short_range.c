@@ -35,9 +35,9 @@ static run cloud (int dim, const char *contact, int threads)
 /* ---- against all pairs --------------------------------------------------------------------------------- */
 static int joined (const run *r, size_t i, size_t j)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-        if ((size_t) f->node[e] == j) return r->state->alive[r->problem->first_bond[PG_NODES] + e];
+        if ((size_t) f->node[e] == j) return r->state->alive[r->problem->bonds.first[PG_NODES] + e];
     return 0;
 }
 
@@ -102,11 +102,11 @@ static size_t all_pairs (const run *r, const pg_contact_setting *c, const double
 /* Bonds of a point that die now, in both directions, as a force tells them. */
 static void kill_bonds (run *r, size_t i, pg_changes *out)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     out->n = 0;
     for (size_t a = 0; a < r->problem->cloud.n; a++)
         for (size_t e = f->start[a]; e < f->start[a + 1]; e++) {
-            size_t bond = r->problem->first_bond[PG_NODES] + e;
+            size_t bond = r->problem->bonds.first[PG_NODES] + e;
             if ((a != i && (size_t) f->node[e] != i) || !r->state->alive[bond]) continue;
             out->bond[out->n++] = bond, r->state->alive[bond] = 0;
         }
@@ -115,14 +115,14 @@ static void kill_bonds (run *r, size_t i, pg_changes *out)
 /* Of bonds that have just died, and whose ends nothing joins any more. */
 static void note_distances (const run *r, const pg_changes *broken, double *shorter)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     size_t n = r->problem->cloud.n;
     for (size_t k = 0; k < broken->n; k++) {
         int set;
         size_t i, j;
         double e[3];
         pg_problem_locate (r->problem, broken->bond[k], &set, &i);
-        j = (size_t) f->node[broken->bond[k] - r->problem->first_bond[PG_NODES]];
+        j = (size_t) f->node[broken->bond[k] - r->problem->bonds.first[PG_NODES]];
         shorter[i < j ? i * n + j : j * n + i] = apart (r, i, j, r->state->d, e);
     }
 }
@@ -219,11 +219,11 @@ static void bars_exchange_velocities (void **state)
             advance (&r);
             if (r.step.nbroken) fail ();
             const pg_statistics *s = pg_solver_report (r.solver, r.state);
-            int touches = s->contact_touching > 0;
+            int touches = s->contact.touching > 0;
             if (touches && isnan (first)) first = r.step.time;
             if (touches) last = r.step.time;
-            rest = s->energy_dissipated / s->energy_external;
-            if (s->energy_external > 0) check_below (fabs (rest), 1e-3);
+            rest = s->energy.dissipated / s->energy.external;
+            if (s->energy.external > 0) check_below (fabs (rest), 1e-3);
         }
         momentum_of (&r, &p, &turn, &size, &size_turn);
         check_relative (p, impulse, 1e-12);
@@ -233,7 +233,7 @@ static void bars_exchange_velocities (void **state)
         check_relative (first, 3 * unit / 0.01, 1e-3);
         print_message ("contact %.4f of 2 L / c, velocities %.4f %.4f, energy %.1e, overlap %.3g spacings\n",
                        (last - first) / (2 * n * unit / c), mean[0] / 0.01, mean[1] / 0.01, rest,
-                       pg_solver_report (r.solver, r.state)->overlap_max / unit);
+                       pg_solver_report (r.solver, r.state)->contact.overlap_max / unit);
         check_relative (last - first, 2 * n * unit / c, 0.03);
         check_absolute (mean[0] / 0.01, 0, 0.01);
         check_absolute (mean[1] / 0.01, 1, 0.01);
@@ -256,15 +256,15 @@ static void disks_keep_momentum_and_energy (void **state)
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
         print_message ("%s, friction %g: energy %.2e, friction work %.3g of %.3g J, overlap %.3g, pairs "
             "%ld\n",
-                       force[k], l.friction, s->energy_dissipated / s->energy_external, s->energy_friction,
-                       s->energy_external, s->overlap_max, s->contact_pairs);
+                       force[k], l.friction, s->energy.dissipated / s->energy.external, s->energy.friction,
+                       s->energy.external, s->contact.overlap_max, s->contact.pairs);
         for (int a = 0; a < 2; a++) check_scaled (p[a], p0[a], 1e-12, size);
         if (k == 0) check_scaled (turn, turn0, 1e-11, size_turn);
-        check_below (fabs (s->energy_dissipated), 1e-3 * s->energy_external);
-        check_scaled (lost, s->energy_dissipated, 1e-10, s->energy_external);
-        assert_true (s->overlap_max > 0);
-        if (l.friction > 0) assert_true (s->energy_friction > 1e-3 * s->energy_external);
-        else assert_true (s->energy_friction == 0);
+        check_below (fabs (s->energy.dissipated), 1e-3 * s->energy.external);
+        check_scaled (lost, s->energy.dissipated, 1e-10, s->energy.external);
+        assert_true (s->contact.overlap_max > 0);
+        if (l.friction > 0) assert_true (s->energy.friction > 1e-3 * s->energy.external);
+        else assert_true (s->energy.friction == 0);
         clear (&r);
     }
 }
@@ -308,10 +308,10 @@ static void unknowns_of_shape_functions_collide (void **state)
             check_absolute (sum[0], start, 1e-11 * start);
             check_absolute (sum[1], 0, 1e-11 * start);
             const pg_statistics *s = pg_solver_report (r.solver, r.state);
-            double energy = s->energy_kinetic + s->energy_strain + s->energy_contact + s->energy_friction;
+            double energy = s->energy.kinetic + s->energy.strain + s->energy.contact + s->energy.friction;
             off = fmax (off, fabs (energy / (0.25 * start) - 1));
-            work = fmax (work, s->energy_contact / (0.25 * start));
-            if (kept || !(s->contact_touching > 0)) continue;
+            work = fmax (work, s->energy.contact / (0.25 * start));
+            if (kept || !(s->contact.touching > 0)) continue;
             keep (&r, &t, 0);
             check_ok (pg_state_copy (b.state, r.state));
             keep (&b, &t, 1);
@@ -343,7 +343,7 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
         /* amid contact, with slips */
         if (++row == 120) {
             const pg_statistics *s = pg_solver_report (one.solver, one.state);
-            assert_true (s->contact_touching > 0 && s->energy_friction > 0 && one.state->broken > 0);
+            assert_true (s->contact.touching > 0 && s->energy.friction > 0 && one.state->broken > 0);
             keep (&one, &t, 0), keep (&back, &t, 1);
         } else if (row > 120) {
             advance (&back);
@@ -354,8 +354,8 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
     assert_true (row > 150);
     const pg_statistics *a = pg_solver_report (one.solver, one.state),
                         *b = pg_solver_report (back.solver, back.state);
-    assert_true (a->energy_friction == b->energy_friction && a->energy_contact == b->energy_contact
-                 && a->overlap_max == b->overlap_max);
+    assert_true (a->energy.friction == b->energy.friction && a->energy.contact == b->energy.contact
+                 && a->contact.overlap_max == b->contact.overlap_max);
     pg_free (t.byte);
     clear (&one), clear (&four), clear (&simple), clear (&back);
 }
@@ -368,21 +368,21 @@ static void refused_steps_leave_no_trace (void **state)
     run a = disks_run (&l), b = disks_run (&l);
     for (int row = 0; row < 110; row++) advance (&a), advance (&b);
     double *d = pg_calloc (a.state->ndof, sizeof *d), friction, contact;
-    assert_true (pg_solver_report (b.solver, b.state)->contact_touching > 0);
+    assert_true (pg_solver_report (b.solver, b.state)->contact.touching > 0);
     memcpy (d, b.state->d, a.state->ndof * sizeof *d);
-    friction = pg_solver_report (b.solver, b.state)->energy_friction;
-    contact = pg_solver_report (b.solver, b.state)->energy_contact;
+    friction = pg_solver_report (b.solver, b.state)->energy.friction;
+    contact = pg_solver_report (b.solver, b.state)->energy.contact;
     /* a velocity that is not finite refuses the step */
     double v = b.state->v[0];
     b.state->v[0] = INFINITY;
     check_fails (pg_solver_step (b.solver, b.state, &b.step), PG_E_EQUILIBRIUM);
     b.state->v[0] = v;
     assert_memory_equal (d, b.state->d, a.state->ndof * sizeof *d);
-    assert_true (pg_solver_report (b.solver, b.state)->energy_friction == friction
-                 && pg_solver_report (b.solver, b.state)->energy_contact == contact);
+    assert_true (pg_solver_report (b.solver, b.state)->energy.friction == friction
+                 && pg_solver_report (b.solver, b.state)->energy.contact == contact);
     for (int row = 0; row < 20; row++) advance_alike (&a, &b);
-    assert_true (pg_solver_report (a.solver, a.state)->energy_friction
-                 == pg_solver_report (b.solver, b.state)->energy_friction);
+    assert_true (pg_solver_report (a.solver, a.state)->energy.friction
+                 == pg_solver_report (b.solver, b.state)->energy.friction);
     pg_free (d);
     clear (&a), clear (&b);
 }
@@ -397,10 +397,10 @@ static void units_and_directions_do_not_matter (void **state)
     to_the_end (&a), to_the_end (&b), to_the_end (&c);
     const pg_statistics *s = pg_solver_report (a.solver, a.state), *t = pg_solver_report (b.solver, b.state),
                         *u = pg_solver_report (c.solver, c.state);
-    check_relative (t->energy_friction, s->energy_friction, 1e-6);
-    check_relative (t->overlap_max, s->overlap_max, 1e-8);
-    check_relative (u->energy_friction, s->energy_friction * 1e-9, 1e-6);
-    check_relative (u->overlap_max, s->overlap_max * 1e-3, 1e-8);
+    check_relative (t->energy.friction, s->energy.friction, 1e-6);
+    check_relative (t->contact.overlap_max, s->contact.overlap_max, 1e-8);
+    check_relative (u->energy.friction, s->energy.friction * 1e-9, 1e-6);
+    check_relative (u->contact.overlap_max, s->contact.overlap_max * 1e-3, 1e-8);
     clear (&a), clear (&b), clear (&c);
 }
 

@@ -85,7 +85,7 @@ static void build (const pg_scene *scene)
     if (problem) {
         FUZZ_EXPECT (problem->cloud.n > 0 && isfinite (problem->cloud.h) && problem->cloud.h > 0);
         FUZZ_EXPECT (answered (pg_result_check (scene, problem)));
-        if (problem->cloud.n <= 40 && problem->first_bond[PG_BOND_SETS] <= 2000
+        if (problem->cloud.n <= 40 && problem->bonds.first[PG_BOND_SETS] <= 2000
             && strlen (pg_scene_source (scene)) % 3 == 0)
             advance (scene, problem);
     }

@@ -71,8 +71,8 @@ static void note_run (const run *r)
     note_used ("material", p->material[0].type->name);
     note_used ("writer", pg_scene_text (r->scene, "output.format"));
     if (p->criterion[0].type) note_used ("criterion", p->criterion[0].type->name);
-    if (p->method->shape_functions) note_used ("approximation", p->approx.type->name);
-    if (p->method->shape_functions) note_used ("integration", p->integration->name);
+    if (p->method->shape_functions) note_used ("approximation", p->form.approx.type->name);
+    if (p->method->shape_functions) note_used ("integration", p->form.integration->name);
 }
 
 /* Loads, builds, makes up to three steps, writes them. */

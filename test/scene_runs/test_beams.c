@@ -29,9 +29,9 @@ static void test_panel (void **unused)
     check_below (high[0], 0.3);
     check_below (0.15, low[1]);
     check_below (high[1], 0.3);
-    check_relative (report->energy_dissipated / (90 * 0.1 * (0.25 - low[0])), 1, 0.15);
+    check_relative (report->energy.dissipated / (90 * 0.1 * (0.25 - low[0])), 1, 0.15);
     check_below (report->residual_max, 1e-8);
-    check_below (report->overlap_max, 1e-6);
+    check_below (report->contact.overlap_max, 1e-6);
     assert_int_equal (report->bonds_over_limit, 0);
     clear (&r);
 }

@@ -77,7 +77,7 @@ static void loads_arrive (void **unused)
         check_scaled (r.step.reaction[1], -cases[k].y, 1e-7, 1);
         const pg_statistics *report = pg_solver_report (r.solver, r.state);
         if (!strstr (cases[k].load, "ramp"))
-            check_relative (report->energy_external, report->energy_strain, 1e-7);
+            check_relative (report->energy.external, report->energy.strain, 1e-7);
         clear (&r);
     }
 }
@@ -94,7 +94,7 @@ static void crack_by_events (void **unused)
                           "method: {force: bond%s}\nfailure: {criterion: stretch, fracture_energy: 10 "
                           "J/m2}\nsolver: {stepping: event, max_events: 60}\n",
                           more[k]);
-        const pg_family *f = &r.problem->rows[PG_NODES].family;
+        const pg_family *f = &r.problem->bonds.rows[PG_NODES].family;
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             check_below (r.step.residual, 1e-8);
@@ -168,7 +168,7 @@ static void crack_in_time (void **unused)
         check_below (r.step.residual, 1e-8);
     }
     const pg_statistics *report = pg_solver_report (r.solver, r.state);
-    assert_true (report->broken > 100 && report->energy_dissipated > 0);
+    assert_true (report->broken > 100 && report->energy.dissipated > 0);
     clear (&r);
 }
 
@@ -229,12 +229,12 @@ static void galerkin_scene (void **unused)
                       "method: {force: bond, approximation: rkpm, integration: gauss, nitsche_factor: 10}\n"
                       "boundary: [{set: bottom, displacement: {x: 0, y: 0}, essential: penalty}, {set: top, "
                       "displacement: {y: 1 um}}]\nsolver: {stepping: fixed, steps: 1}\n");
-    assert_string_equal (r.problem->approx.kernel->name, "constant");
-    check_relative (r.problem->approx.horizon, 3.015e-3, 1e-12);
-    assert_int_equal (r.problem->nnote, 3);
-    check_contains (r.problem->note[0], "approximation, integration, nitsche_factor");
-    check_contains (r.problem->note[1], "boundary[0].essential");
-    check_contains (r.problem->note[2], "Poisson's ratio is 0.3333, not 0.2");
+    assert_string_equal (r.problem->form.approx.kernel->name, "constant");
+    check_relative (r.problem->form.approx.horizon, 3.015e-3, 1e-12);
+    assert_int_equal (r.problem->notes.n, 3);
+    check_contains (r.problem->notes.text[0], "approximation, integration, nitsche_factor");
+    check_contains (r.problem->notes.text[1], "boundary[0].essential");
+    check_contains (r.problem->notes.text[2], "Poisson's ratio is 0.3333, not 0.2");
     to_the_end (&r);
     clear (&r);
 }
@@ -260,7 +260,7 @@ static void cracks_on_lattice_lines (void **unused)
                           "{criterion: stretch, critical_stretch: 2e-3}\nsolver: %s\n",
                           -0.5 * high, 0.5 * high, solvers[k % 4]);
         const pg_cloud *c = &r.problem->cloud;
-        const pg_family *f = &r.problem->rows[PG_NODES].family;
+        const pg_family *f = &r.problem->bonds.rows[PG_NODES].family;
         assert_int_equal (c->n, (size_t) (long_ * high));
         while (!pg_solver_done (r.solver, r.state)) advance (&r);
         double most = 0;

@@ -44,7 +44,7 @@ static double stored (const theory *t, double turn, double tip)
     const double crack[4] = { -2, 0, tip, 0 };
     run r = box (t, turn, 60, 10, 5, crack, "solver: {kind: static}\noutput: {at: {levels: 1}}\n");
     to_the_end (&r);
-    double U = pg_solver_report_now (r.solver)->energy_strain;
+    double U = pg_solver_report_now (r.solver)->energy.strain;
     clear (&r);
     return U;
 }
@@ -138,7 +138,7 @@ static double consumed (const theory *t, double turn, const char *failure)
     run r = box (t, turn, 60, 10, 5, crack, text);
     while (!pg_solver_done (r.solver, r.state) && grown < 7) {
         advance (&r);
-        double factor = r.step.factor, after = pg_solver_report_now (r.solver)->energy_strain;
+        double factor = r.step.factor, after = pg_solver_report_now (r.solver)->energy.strain;
         after /= factor * factor;
         if (grown > 2) work += factor * factor * (before - after), length += (before - after) / G;
         grown += (before - after) / G, before = after;

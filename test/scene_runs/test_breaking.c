@@ -173,7 +173,7 @@ static void check_dissipation (const run *r, const pg_statistics *report)
 {
     int in_K = 0;
     for (size_t k = 0; k < r->step.nbroken; k++) in_K |= r->step.broken[k].set != PG_NODES;
-    if (!in_K) check_below (fabs (r->step.dissipated), 1e-9 * report->energy_external);
+    if (!in_K) check_below (fabs (r->step.dissipated), 1e-9 * report->energy.external);
 }
 
 /* Between breaks F = k lambda, so the work is the sum of (1/2) k_i (lambda_i^2 - lambda_(i-1)^2) U, from
@@ -188,25 +188,25 @@ static void energies_balance_event_by_event (void **state)
         int negative = 0;
         const pg_statistics *report = pg_solver_report_now (r.solver);
         while (!pg_solver_done (r.solver, r.state)) {
-            double before = report->energy_external, strain = report->energy_strain;
+            double before = report->energy.external, strain = report->energy.strain;
             advance (&r);
             work += 0.5 * r.step.reaction[4] / r.step.factor * U
                     * (r.step.factor * r.step.factor - last * last);
             last = r.step.factor;
             sum += r.step.dissipated;
-            negative += r.step.dissipated < -1e-9 * report->energy_external;
+            negative += r.step.dissipated < -1e-9 * report->energy.external;
             check_dissipation (&r, report);
-            double gain = report->energy_external - before - (report->energy_strain - strain);
-            check_scaled (gain, r.step.dissipated, 1e-9, report->energy_external);
+            double gain = report->energy.external - before - (report->energy.strain - strain);
+            check_scaled (gain, r.step.dissipated, 1e-9, report->energy.external);
         }
         print_message ("%s: work %.8g J (from reactions %.8g), strain %.8g, dissipated %.8g J in %ld events, "
                        "negative in %d\n",
-                       essentials[m], report->energy_external, work, report->energy_strain,
-                       report->energy_dissipated, r.state->events, negative);
-        check_relative (report->energy_external, work, 1e-9);
-        check_relative (report->energy_external, report->energy_strain + report->energy_dissipated, 1e-12);
-        check_scaled (report->energy_dissipated, sum, 1e-9, report->energy_external);
-        assert_true (report->energy_dissipated > 0.01 * report->energy_external);
+                       essentials[m], report->energy.external, work, report->energy.strain,
+                       report->energy.dissipated, r.state->events, negative);
+        check_relative (report->energy.external, work, 1e-9);
+        check_relative (report->energy.external, report->energy.strain + report->energy.dissipated, 1e-12);
+        check_scaled (report->energy.dissipated, sum, 1e-9, report->energy.external);
+        assert_true (report->energy.dissipated > 0.01 * report->energy.external);
         clear (&r);
     }
 }
@@ -222,11 +222,11 @@ static void energies_balance_in_fixed_steps (void **state)
         sum += r.step.dissipated;
         check_dissipation (&r, report);
         /* linear body under one pull: strain energy = F U / 2 (Clapeyron) */
-        check_scaled (report->energy_strain, 0.5 * r.step.reaction[4] * 0.7e-3 * r.step.factor, 1e-9,
-                      0.01 * report->energy_external);
+        check_scaled (report->energy.strain, 0.5 * r.step.reaction[4] * 0.7e-3 * r.step.factor, 1e-9,
+                      0.01 * report->energy.external);
     }
-    check_relative (report->energy_external, report->energy_strain + sum, 1e-9);
-    assert_true (sum > 0.01 * report->energy_external);
+    check_relative (report->energy.external, report->energy.strain + sum, 1e-9);
+    assert_true (sum > 0.01 * report->energy.external);
     clear (&r);
 }
 

@@ -42,10 +42,10 @@ static pg_changes break_some (run *r, double probability)
     pg_changes changes = { 0 };
     changes.bond = pg_calloc (r->state->nbond, sizeof *changes.bond);
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        const pg_rows *rows = &r->problem->rows[s];
+        const pg_rows *rows = &r->problem->bonds.rows[s];
         for (size_t p = 0; p < rows->n; p++)
             for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++) {
-                size_t b = r->problem->first_bond[s] + e;
+                size_t b = r->problem->bonds.first[s] + e;
                 if (rows->family.node[e] == rows->own[p] || !r->state->alive[b] || chance () > probability)
                     continue;
                 r->state->alive[b] = 0;
@@ -102,7 +102,7 @@ static void a_dead_node_is_absent_from_displacement_and_stress (void **state)
     (void) state;
     for (int m = 0; m < METHODS; m++) {
         run r = plate (&methods[m], 0.15, "");
-        const pg_rows *rows = &r.problem->rows[PG_NODES];
+        const pg_rows *rows = &r.problem->bonds.rows[PG_NODES];
         size_t n = rows->n, dead = 0, seen = 0;
         refresh (&r, NULL);
         pg_changes changes = break_some (&r, 0.05);

@@ -102,8 +102,8 @@ static void facets_run_at_a_held_load (void **state)
         if (k == 1) assert_true (b.step.utilisation > 1.001);
         assert_true (a.state->paths->length == b.state->paths->length);
     }
-    assert_int_equal (pg_solver_report_now (b.solver)->instabilities, 1);
-    assert_int_equal (pg_solver_report_now (b.solver)->unstable_steps, 5);
+    assert_int_equal (pg_solver_report_now (b.solver)->unstable.count, 1);
+    assert_int_equal (pg_solver_report_now (b.solver)->unstable.steps, 5);
     clear (&a), clear (&b);
 }
 
@@ -116,7 +116,7 @@ static void facets_run_in_motion (void **state)
     run a = opened (dynamic), b = opened (dynamic);
     tape t = { 0 };
     while (!(a.step.motion > 0)) advance (&a);
-    check_below (pg_solver_report_now (a.solver)->switch_jump, 1e-8);
+    check_below (pg_solver_report_now (a.solver)->unstable.jump, 1e-8);
     double began = a.step.motion, length = a.state->paths->length;
     for (int k = 0; k < 30; k++) advance (&a);
     keep (&a, &t, 0);

@@ -17,7 +17,7 @@ static void the_run_names_why_energies_are_out (void **unused)
         if (r.step.event && !(first > 0)) first = 20e6 * (r.step.factor - 1);
     }
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
-    double share = s->energy_dissipated / s->energy_fracture,
+    double share = s->energy.dissipated / s->energy.fracture,
            theory = 2 * (sqrt (3) / 2 * sqrt (5.96e9 * 5 / (acos (-1) * 0.01)) + 0.3 * 2e6) / 0.7;
     print_message ("first wings at %.4g of the infinite plate's load, dissipated %.3f\n", first / theory,
                    share);

@@ -153,16 +153,16 @@ static void test_identity_holds_in_whole_cells_only (void **unused)
                       "[-0.1, 0.51], to: [0.5, 0.51]}]\n"
                       "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n",
                       rock, "consistent");
-    const pg_consistency *c = r.problem->consistency;
-    pg_rows direct = r.problem->rows[PG_POINTS], wide = { 0 };
+    const pg_consistency *c = r.problem->form.consistency;
+    pg_rows direct = r.problem->bonds.rows[PG_POINTS], wide = { 0 };
     size_t nnz = direct.family.start[direct.n], n = c->family.start[direct.n];
     direct.N = pg_calloc (nnz, 8), direct.dN = pg_calloc (2 * nnz, 8), direct.w = pg_calloc (nnz, 8),
     direct.grade = pg_calloc (direct.n, 1);
     wide.N = pg_calloc (n, 8), wide.dN = pg_calloc (2 * n, 8);
     unsigned char *whole = pg_calloc (c->cells->n, 1);
     for (size_t cell = 0; cell < c->cells->n; cell += 2) whole[cell] = 1;
-    check_ok (r.problem->approx.type->evaluate (&r.problem->approx, &r.problem->cloud, &direct, NULL,
-                                                direct.n, NULL, 1));
+    check_ok (r.problem->form.approx.type->evaluate (&r.problem->form.approx, &r.problem->cloud, &direct,
+                                                     NULL, direct.n, NULL, 1));
     check_ok (pg_consistency_apply (c, &direct, &wide, whole, NULL, 0, NULL, 1));
     double worst[2] = { 0, 0 };
     for (size_t cell = 0; cell < c->cells->n; cell++) {

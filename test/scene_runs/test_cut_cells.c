@@ -193,7 +193,7 @@ static void pressure_on_an_arc_carries_its_shadow (void **state)
                          "boundary: [{set: up, pressure: 1 Pa}, {set: low, displacement: {x: 0, y: "
                          "0}}]\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n");
     double shadow = 0, length = 0;
-    const pg_set *up = r.problem->load[0].set;
+    const pg_set *up = r.problem->boundary.load[0].set;
     for (size_t k = 0; k < up->nfacet; k++) {
         shadow += r.problem->cells.area[up->facet[k]] * r.problem->cells.normal[2 * up->facet[k] + 1];
         length += r.problem->cells.area[up->facet[k]];

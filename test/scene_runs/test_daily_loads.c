@@ -22,7 +22,7 @@ enum { METHODS = sizeof methods / sizeof *methods };
 static double sum_of (const run *r, int k, int moments)
 {
     double sum = 0;
-    size_t n = r->problem->nload;
+    size_t n = r->problem->boundary.nload;
     for (size_t l = 0; l < n; l++) sum += r->step.reaction[3 * (l + (moments ? n : 0)) + (size_t) k];
     return sum;
 }
@@ -56,8 +56,8 @@ static void moments_are_about_the_centre (void **state)
                          "traction: {y: 1 MPa}}\n",
                       PLATE);
     to_the_end (&r);
-    check_relative (r.problem->load[0].about[0], 1, 1e-14);
-    check_relative (r.problem->load[0].about[1], 2.5, 1e-14);
+    check_relative (r.problem->boundary.load[0].about[0], 1, 1e-14);
+    check_relative (r.problem->boundary.load[0].about[1], 2.5, 1e-14);
     double F = 1e6 * 0.1;                              /* at an arm of 2 m */
     check_relative (r.step.reaction[3 * 2 + 2], -2 * F, 1e-8);
     check_below (fabs (r.step.reaction[3 * 3 + 2]) / F, 1e-9);
@@ -77,7 +77,7 @@ static void a_force_on_a_side_is_a_traction (void **state)
                                      "  - {set: left, displacement: {x: 0, y: 0}}\n  - {set: right, %s}\n",
                                   PLATE, methods[k], cells ? "cells" : "nodes", loads[l]);
                 to_the_end (&r);
-                strain[l] = pg_solver_report (r.solver, r.state)->energy_strain;
+                strain[l] = pg_solver_report (r.solver, r.state)->energy.strain;
                 check_relative (r.step.reaction[3], 2e3, 1e-9);
                 check_relative (r.step.reaction[4], 3e3, 1e-9);
                 clear (&r);
@@ -105,7 +105,7 @@ static void a_force_at_a_place_is_exact (void **state)
             for (int c = 0; c < 2; c++) check_relative (r.step.reaction[c], -F[c], 1e-8);
             check_relative (r.step.reaction[3 * 2 + 2], -(x[0] * F[1] - x[1] * F[0]), 1e-8);
             check_below (fabs (r.step.reaction[3 * 3 + 2]), 1e-6);
-            const pg_load *load = &r.problem->load[1];
+            const pg_load *load = &r.problem->boundary.load[1];
             double sum = 0, centre = 0;
             for (size_t i = 0; i < load->set->npoint; i++) {
                 const double *at = r.problem->cloud.x + 2 * (size_t) load->set->point[i];
@@ -156,10 +156,10 @@ static double spring_error (const char *method, double spacing, double *balance)
                          "  - {set: right, spring: {x: %g}, spring_end: {x: %g}}\n", spacing, method, k, u);
     to_the_end (&r);
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
-    *balance = fabs (s->energy_strain - s->energy_external) / s->energy_strain;
+    *balance = fabs (s->energy.strain - s->energy.external) / s->energy.strain;
     check_relative (r.step.reaction[0], -r.step.reaction[3 * 2], 1e-8);
     double error = fabs (r.step.reaction[3 * 2] / want - 1);
-    check_relative (s->energy_strain, 0.5 * r.step.reaction[3 * 2] * u, 1e-7);
+    check_relative (s->energy.strain, 0.5 * r.step.reaction[3 * 2] * u, 1e-7);
     clear (&r);
     return error;
 }
@@ -228,15 +228,16 @@ static void finite_turns_are_rotations (void **state)
     run r = scene_of (1, "%smethod: {force: bond, stretch: finite}\nboundary:\n  - {set: left, turn: {z: "
                          "30 deg}, about: [2, "
                          "2.5]}\nsolver: {kind: verlet, end: 1 us}\n", PLATE);
-    const pg_load *load = &r.problem->load[0];
+    const pg_load *load = &r.problem->boundary.load[0];
     double place[2] = { 3, 2.5 };
     assert_int_equal (load->finite, 1);
     check_relative (pg_load_value (load, 0, 2, place, 1e-6), cos (3.14159265358979323846 / 6) - 1, 1e-12);
     check_relative (pg_load_value (load, 1, 2, place, 1e-6), 0.5, 1e-12);
     clear (&r);
     r = scene_of (1, "%sboundary:\n  - {set: left, turn: {z: 30 deg}, about: [2, 2.5]}\n", PLATE);
-    assert_int_equal (r.problem->load[0].finite, 0);
-    check_relative (pg_load_value (&r.problem->load[0], 1, 2, place, 1), 3.14159265358979323846 / 6, 1e-12);
+    assert_int_equal (r.problem->boundary.load[0].finite, 0);
+    check_relative (pg_load_value (&r.problem->boundary.load[0], 1, 2, place, 1), 3.14159265358979323846 / 6,
+                    1e-12);
     assert_true (r.options.event);
     clear (&r);
 }

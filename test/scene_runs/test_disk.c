@@ -234,8 +234,8 @@ static void test_broken_bonds_are_point_symmetric (void **unused)
     size_t *node = rotation (p->cloud.n, p->cloud.x), different = 0, dead = 0;
     (void) unused;
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_rows *r = &p->rows[set];
-        const unsigned char *alive = disk.r.state->alive + p->first_bond[set];
+        const pg_rows *r = &p->bonds.rows[set];
+        const unsigned char *alive = disk.r.state->alive + p->bonds.first[set];
         size_t *image = rotation (r->n, r->x);
         for (size_t q = 0; q < r->n; q++)
             for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {

@@ -81,13 +81,14 @@ static void answers_are_those_of_the_factor (void **state)
         const pg_statistics *by = pg_solver_report_now (a.solver), *factor = pg_solver_report_now (b.solver);
         const char *kind = k < ON_GRID ? "finite elements, multilevel, "
                                        : "finite elements on a coarse grid, multilevel, ";
-        assert_int_equal (strncmp (by->preconditioner, kind, strlen (kind)), 0);
-        assert_string_equal (by->solver, "cg");
-        assert_int_equal (by->preconditioners, 1);
-        assert_int_equal (by->factorizations, 0);
-        assert_true (factor->factorizations > 0 && factor->preconditioner[0] == 0);
-        if (by->cg_iterations > cases[k].most * (size_t) by->solves)
-            fail_msg ("case %zu: %zu iterations in %ld solves", k, by->cg_iterations, by->solves);
+        assert_int_equal (strncmp (by->linear.preconditioner, kind, strlen (kind)), 0);
+        assert_string_equal (by->linear.solver, "cg");
+        assert_int_equal (by->linear.preconditioners, 1);
+        assert_int_equal (by->linear.factorizations, 0);
+        assert_true (factor->linear.factorizations > 0 && factor->linear.preconditioner[0] == 0);
+        if (by->linear.cg_iterations > cases[k].most * (size_t) by->linear.solves)
+            fail_msg ("case %zu: %zu iterations in %ld solves", k, by->linear.cg_iterations,
+                      by->linear.solves);
         double off = difference (&a, &b);
         if (!(off < 1e-6)) fail_msg ("case %zu: off by %g", k, off);
         clear (&a), clear (&b);
@@ -111,7 +112,7 @@ static void iterations_do_not_grow_with_the_size (void **state)
             run r = cube_of (which[w], spacing[k], "linear: pcg");
             to_the_end (&r);
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            used[k] = report->cg_iterations / (size_t) report->solves;
+            used[k] = report->linear.cg_iterations / (size_t) report->linear.solves;
             clear (&r);
         }
         if ((double) used[2] > most[w] * (double) used[0] || (double) used[1] > most[w] * (double) used[0])
@@ -135,8 +136,8 @@ static void on_a_grid_mass_is_carried_too (void **state)
     run a = scene_of (1, text, "pcg"), b = scene_of (1, text, "cholmod");
     to_the_end (&a), to_the_end (&b);
     const pg_statistics *by = pg_solver_report_now (a.solver);
-    assert_int_equal (strncmp (by->preconditioner, "finite elements on a coarse grid, ", 34), 0);
-    assert_true (by->cg_iterations < 220 * (size_t) by->solves);         /* 171 measured */
+    assert_int_equal (strncmp (by->linear.preconditioner, "finite elements on a coarse grid, ", 34), 0);
+    assert_true (by->linear.cg_iterations < 220 * (size_t) by->linear.solves);         /* 171 measured */
     assert_true (difference (&a, &b) < 1e-6);
     clear (&a), clear (&b);
 }
@@ -299,8 +300,8 @@ static void it_is_taken_where_it_pays (void **state)
         run r = cube_of (0, choice[k].spacing, choice[k].solver);
         to_the_end (&r);
         const pg_statistics *report = pg_solver_report_now (r.solver);
-        assert_int_equal (report->preconditioners, choice[k].taken);
-        assert_int_equal (report->factorizations, !choice[k].taken);
+        assert_int_equal (report->linear.preconditioners, choice[k].taken);
+        assert_int_equal (report->linear.factorizations, !choice[k].taken);
         clear (&r);
     }
 }

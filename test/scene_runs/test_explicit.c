@@ -26,10 +26,10 @@ static void what_breaking_takes_is_never_given_back (void **state)
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             const pg_statistics *p = pg_solver_report_now (r.solver);
-            assert_true (p->energy_dissipated >= taken - 1e-12 * p->energy_external);
-            assert_true (r.step.nbroken > 0 || p->energy_dissipated <= taken + 1e-12 * p->energy_external);
-            check_scaled (r.step.dissipated, p->energy_dissipated - taken, 1e-9, p->energy_external);
-            taken = p->energy_dissipated, broken += (long) r.step.nbroken;
+            assert_true (p->energy.dissipated >= taken - 1e-12 * p->energy.external);
+            assert_true (r.step.nbroken > 0 || p->energy.dissipated <= taken + 1e-12 * p->energy.external);
+            check_scaled (r.step.dissipated, p->energy.dissipated - taken, 1e-9, p->energy.external);
+            taken = p->energy.dissipated, broken += (long) r.step.nbroken;
             for (size_t i = 0; i < r.step.nbroken; i++) {
                 assert_true (r.step.broken[i].time >= last && r.step.broken[i].time <= r.step.time
                              && !r.state->alive[r.step.broken[i].bond]);
@@ -75,8 +75,8 @@ static void threads_do_not_change_a_bit (void **state)
         assert_true (one.state->broken > 10);
         assert_memory_equal (one.state->d, two.state->d, one.state->ndof * sizeof (double));
         assert_memory_equal (one.state->alive, two.state->alive, one.state->nbond);
-        assert_true (pg_solver_report_now (one.solver)->energy_external
-                     == pg_solver_report_now (two.solver)->energy_external);
+        assert_true (pg_solver_report_now (one.solver)->energy.external
+                     == pg_solver_report_now (two.solver)->energy.external);
         clear (&one), clear (&two);
     }
 }
@@ -123,8 +123,8 @@ static void relaxation_reaches_the_static_solution (void **state)
         check_below (apart (&s, &r, 1), 1e-8);
         check_below (r.step.residual, 1e-10);
         check_relative (r.step.reaction[3], s.step.reaction[3], 1e-8);
-        check_relative (pg_solver_report_now (r.solver)->energy_external,
-                        pg_solver_report_now (s.solver)->energy_external, 1e-8);
+        check_relative (pg_solver_report_now (r.solver)->energy.external,
+                        pg_solver_report_now (s.solver)->energy.external, 1e-8);
         clear (&r);
     }
     clear (&s);
@@ -152,11 +152,11 @@ static void breaking_in_balance_is_the_static_path (void **state)
             to_the_end (&r);
             assert_memory_equal (s.state->alive, r.state->alive, s.state->nbond);
             check_below (apart (&s, &r, 1), 1e-6);
-            check_relative (pg_solver_report_now (r.solver)->energy_external,
-                            pg_solver_report_now (s.solver)->energy_external, 1e-6);
-            check_scaled (pg_solver_report_now (r.solver)->energy_dissipated,
-                          pg_solver_report_now (s.solver)->energy_dissipated, 1e-5,
-                          pg_solver_report_now (s.solver)->energy_external);
+            check_relative (pg_solver_report_now (r.solver)->energy.external,
+                            pg_solver_report_now (s.solver)->energy.external, 1e-6);
+            check_scaled (pg_solver_report_now (r.solver)->energy.dissipated,
+                          pg_solver_report_now (s.solver)->energy.dissipated, 1e-5,
+                          pg_solver_report_now (s.solver)->energy.external);
             clear (&r);
         }
         clear (&s);
@@ -191,7 +191,7 @@ static void bonds_that_go_on_the_way_leave_a_balanced_state (void **state)
             pg_free (utilisation), pg_free (kind);
         }
         assert_true (r.state->broken > 100);
-        assert_true (pg_solver_report_now (r.solver)->energy_dissipated > 0);
+        assert_true (pg_solver_report_now (r.solver)->energy.dissipated > 0);
         clear (&r);
     }
 }
@@ -238,8 +238,8 @@ static void galerkin_forces_march_too (void **state)
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
         const pg_statistics *p = pg_solver_report_now (r.solver);
-        most = fmax (most, p->energy_strain);
-        check_scaled (p->energy_dissipated, 0, 1e-3, most);
+        most = fmax (most, p->energy.strain);
+        check_scaled (p->energy.dissipated, 0, 1e-3, most);
     }
     assert_true (most > 0);
     clear (&r);

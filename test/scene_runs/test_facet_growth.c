@@ -53,10 +53,10 @@ static const pg_tip *tip_of (const run *r, size_t i) { return &r->state->paths->
 static void check_energies (const run *r, const course *c, double tolerance)
 {
     const pg_statistics *s = pg_solver_report_now (r->solver);
-    check_relative (s->energy_external, s->energy_strain + s->energy_dissipated, 1e-10);
-    check_relative (s->energy_dissipated, c->dissipated, 1e-9);
-    check_relative (s->energy_dissipated, s->energy_fracture, tolerance);
-    assert_true (c->least >= -1e-9 * s->energy_external);
+    check_relative (s->energy.external, s->energy.strain + s->energy.dissipated, 1e-10);
+    check_relative (s->energy.dissipated, c->dissipated, 1e-9);
+    check_relative (s->energy.dissipated, s->energy.fracture, tolerance);
+    assert_true (c->least >= -1e-9 * s->energy.external);
 }
 
 static void a_strip_breaks_at_its_load_on_any_lattice (void **state)
@@ -126,9 +126,9 @@ static void constant_loads_count (void **state)
             check_relative (r.step.utilisation, 1, 1e-9);
         }
         const pg_statistics *s = pg_solver_report_now (r.solver);
-        check_relative (s->energy_external, s->energy_strain + s->energy_dissipated, 1e-10);
-        check_relative (s->energy_dissipated, dissipated, 1e-9);
-        check_relative (s->energy_dissipated, s->energy_fracture, 0.03);
+        check_relative (s->energy.external, s->energy.strain + s->energy.dissipated, 1e-10);
+        check_relative (s->energy.dissipated, dissipated, 1e-9);
+        check_relative (s->energy.dissipated, s->energy.fracture, 0.03);
         clear (&r);
     }
 }
@@ -330,9 +330,9 @@ static void a_crack_runs_through (void **state)
     assert_true (!tip_of (&r, 0)->open);
     check_absolute (tip_of (&r, 0)->x[0], 5, 1e-6);
     check_contains (s->warning[s->nwarning - 1], "the body has separated");
-    check_relative (s->energy_fracture, 100 * (3 - 0.37 / 15), 2e-3);
+    check_relative (s->energy.fracture, 100 * (3 - 0.37 / 15), 2e-3);
     check_energies (&r, &c, 0.02);
-    check_below (s->energy_strain, 1e-3);
+    check_below (s->energy.strain, 1e-3);
     clear (&r);
 }
 
@@ -380,7 +380,7 @@ static void fixed_steps_grow_until_all_tips_rest (void **state)
     const pg_statistics *s = pg_solver_report_now (r.solver);
     assert_true (grown > 0.2 && tip_of (&r, 0)->open);
     /* the load was over the limit at first */
-    assert_true (s->energy_dissipated > s->energy_fracture);
+    assert_true (s->energy.dissipated > s->energy.fracture);
     clear (&r);
 }
 
@@ -432,8 +432,8 @@ static void pressure_in_cracks_is_tension_outside (void **state)
         }
         for (int k = 0; k < 2; k++) {
             const pg_statistics *s = pg_solver_report_now (r[k].solver);
-            check_relative (s->energy_external, s->energy_strain + s->energy_dissipated, 1e-10);
-            check_relative (s->energy_dissipated, s->energy_fracture, 0.04);
+            check_relative (s->energy.external, s->energy.strain + s->energy.dissipated, 1e-10);
+            check_relative (s->energy.dissipated, s->energy.fracture, 0.04);
             clear (&r[k]);
         }
     }
@@ -459,8 +459,8 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
             advance_alike (&a, &b);
             assert_memory_equal (tip_of (&a, 0)->x, tip_of (&b, 0)->x, sizeof tip_of (&a, 0)->x);
         }
-        assert_true (pg_solver_report_now (a.solver)->energy_fracture
-                     == pg_solver_report_now (b.solver)->energy_fracture);
+        assert_true (pg_solver_report_now (a.solver)->energy.fracture
+                     == pg_solver_report_now (b.solver)->energy.fracture);
         pg_free (t.byte);
         clear (&a), clear (&b);
     }

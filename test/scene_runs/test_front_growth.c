@@ -122,7 +122,7 @@ static void a_crack_begins_at_the_root_of_a_notch (void **state)
                              "solver: {max_events: 1}\n", m, -8 * m, 8 * m, 8 * m, 6 * m, -m, 8 * m, 2 * m,
                                  E, NU,
                           G0 * 1e3 * m, 4 * m, 4 * m);
-        assert_int_equal (r.problem->nfront, 0);
+        assert_int_equal (r.problem->crack.nfront, 0);
         while (r.state->events == 0 && !pg_solver_done (r.solver, r.state)) advance (&r);
         size_t nfront;
         const pg_front *front = pg_fronts_of_state (r.problem, r.state, &nfront);

@@ -195,7 +195,7 @@ static void a_fracture_energy_follows_the_support (void **state)
     for (size_t i = 0; i < p->cloud.n; i++) u[i] = 1e-3 * p->cloud.x[i];
     advance (&r);
     check_ok (force->judge (self, r.state, u, &(pg_judging){ .utilisation = used }));
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     for (size_t i = 0; i < p->cloud.n; i++) for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
         size_t j = (size_t) f->node[e];
         double reach = 0.5 * (p->cloud.size[i] + p->cloud.size[j]) / p->cloud.h;

@@ -230,7 +230,7 @@ static double held_error (const char *method, const char *ux, const char *uy,
         "'%s'}}, "
         "{set: top, displacement: {x: '%s', y: '%s'}}, {set: bottom, displacement: {x: '%s', y: '%s'}}]\n",
         method, ux, uy, ux, uy, ux, uy, ux, uy);
-    assert_non_null (r.problem->patches);
+    assert_non_null (r.problem->form.patches);
     to_the_end (&r);
     double *u = field_of (&r, NULL, "displacement", NULL), off = 0, top = 0;
     for (size_t i = 0; i < r.problem->cloud.n; i++) {
@@ -285,13 +285,13 @@ static void other_materials_have_the_same_bits (void **state)
     for (int k = 0; k < 2; k++) {
         run usual = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "auto", "rkpm"),
             plain = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "pointwise", "rkpm");
-        assert_null (usual.problem->patches);
+        assert_null (usual.problem->form.patches);
         to_the_end (&usual), to_the_end (&plain);
         assert_memory_equal (usual.state->d, plain.state->d, plain.state->ndof * sizeof *plain.state->d);
         clear (&usual), clear (&plain);
     }
     run r = cylinder (&rows[0], 0.45, "auto", "rkpm");
-    assert_non_null (r.problem->patches);
+    assert_non_null (r.problem->form.patches);
     clear (&r);
 }
 
@@ -376,7 +376,7 @@ static void places_have_the_pressure_of_their_patches (void **state)
     double mu = 1 / (2 * 1.4999), lambda = 0.4999 / (1.4999 * 2e-4), volume = 1e-3;
     for (int k = 0; k < 4; k++) {
         run r = scene_of (1, "%sboundary: [{set: left, displacement: {x: 0, y: 0}}]\n", scenes[k]);
-        const pg_patches *patches = r.problem->patches;
+        const pg_patches *patches = r.problem->form.patches;
         const double *places = at[k == 3];
         assert_int_equal (patches->share[patches->entry[0]] < 1, k == 3);
         void *self;
@@ -400,12 +400,12 @@ static void what_has_no_remedy_is_warned_of (void **state)
 {
     (void) state;
     run r = cylinder (&rows[1], 0.4999, "pointwise", "rkpm");
-    assert_true (r.problem->nnote == 1);
-    check_contains (r.problem->note[0], "warning: material ring: Poisson's ratio is near 1/2");
+    assert_true (r.problem->notes.n == 1);
+    check_contains (r.problem->notes.text[0], "warning: material ring: Poisson's ratio is near 1/2");
     clear (&r);
     r = cylinder (&rows[1], 0.4999, "auto", "rkpm");
-    assert_true (r.problem->nnote == 1);
-    check_contains (r.problem->note[0], "dilatation projected: linear in each of ");
+    assert_true (r.problem->notes.n == 1);
+    check_contains (r.problem->notes.text[0], "dilatation projected: linear in each of ");
     clear (&r);
 }
 

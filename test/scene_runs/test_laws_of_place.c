@@ -87,7 +87,7 @@ static void two_values_by_a_step_are_two_blocks (void **state)
             if (dim < forces[f].lowest) continue;
             run a = strip (dim, f, 1), b = strip (dim, f, 0);
             double *fa, *fb, *ua = shown (&a, &fa), *ub = shown (&b, &fb);
-            assert_int_equal (a.problem->nlaw, 2);
+            assert_int_equal (a.problem->at.nlaw, 2);
             assert_int_equal (a.state->nbond, b.state->nbond);
             double force = largest_difference (fa, fb, a.state->ndof) / largest_of (fb, b.state->ndof),
                    use = largest_difference (ua, ub, a.state->nbond) / largest_of (ub, b.state->nbond);
@@ -177,14 +177,15 @@ static void the_weakest_place_breaks_first (void **state)
     run r = tension (3, "", consistent);
     const pg_problem *p = r.problem;
     double least = INFINITY;
-    for (size_t k = 0; k < p->nlimit; k++) {
+    for (size_t k = 0; k < p->at.nlimit; k++) {
         double form[2][2];
-        p->limit[k].type->planes (&p->limit[k], form);
+        p->at.limit[k].type->planes (&p->at.limit[k], form);
         least = fmin (least, 1 / form[0][0]);
     }
-    assert_true (p->nlimit > 1000);
+    assert_true (p->at.nlimit > 1000);
     advance (&r);
-    print_message ("weakest of %zu points %.6g Pa, first event at %.6g\n", p->nlimit, least, r.state->factor);
+    print_message ("weakest of %zu points %.6g Pa, first event at %.6g\n", p->at.nlimit, least,
+                   r.state->factor);
     assert_true (r.step.nbroken > 0 && fabs (r.state->factor * 2e6 / least - 1) < 1e-9);
     clear (&r);
 }
@@ -244,10 +245,10 @@ static void fields_have_their_distribution_and_seed (void **state)
 {
     (void) state;
     run a = tension (11, "", gauss), b = tension (11, "", gauss), c = tension (12, "", gauss);
-    const pg_variation *v = &a.problem->vary[0];
-    double sum = 0, squares = 0, n = (double) a.problem->nlimit, form[2][2];
-    for (size_t k = 0; k < a.problem->nlimit; k++) {
-        a.problem->limit[k].type->planes (&a.problem->limit[k], form);
+    const pg_variation *v = &a.problem->at.vary[0];
+    double sum = 0, squares = 0, n = (double) a.problem->at.nlimit, form[2][2];
+    for (size_t k = 0; k < a.problem->at.nlimit; k++) {
+        a.problem->at.limit[k].type->planes (&a.problem->at.limit[k], form);
         sum += 1 / form[0][0], squares += 1 / (form[0][0] * form[0][0]);
     }
     double mean = sum / n, spread = sqrt (squares / n - mean * mean), exact = 3e6 * tgamma (9. / 8),
@@ -258,11 +259,11 @@ static void fields_have_their_distribution_and_seed (void **state)
     assert_true (fabs (mean / exact - 1) < 0.02 && fabs (spread / deviation - 1) < 0.1);
     assert_true (v->least[PG_OF_TENSION] < v->mean[PG_OF_TENSION]
                  && v->mean[PG_OF_TENSION] < v->most[PG_OF_TENSION]);
-    assert_int_equal (a.problem->nlimit, b.problem->nlimit);
-    assert_memory_equal (a.problem->limit->parameter, b.problem->limit->parameter,
-                         sizeof a.problem->limit->parameter);
-    assert_true (memcmp (a.problem->limit->parameter, c.problem->limit->parameter,
-                         sizeof a.problem->limit->parameter) != 0);
+    assert_int_equal (a.problem->at.nlimit, b.problem->at.nlimit);
+    assert_memory_equal (a.problem->at.limit->parameter, b.problem->at.limit->parameter,
+                         sizeof a.problem->at.limit->parameter);
+    assert_true (memcmp (a.problem->at.limit->parameter, c.problem->at.limit->parameter,
+                         sizeof a.problem->at.limit->parameter) != 0);
     clear (&a), clear (&b), clear (&c);
 }
 

@@ -133,10 +133,11 @@ static void nodes_on_a_crack_are_eroded (void **state)
 {
     (void) state;
     run r = plate (0, FIXED, "cracks: [{from: [0.2, 0.2], to: [0.6, 0.6]}]\n", "");
-    assert_int_equal (r.problem->eroded, 5);  /* (4..8)/15 on the diagonal: the tips lie further on */
-    check_contains (r.problem->note[r.problem->nnote - 1],
+    assert_int_equal (r.problem->crack.eroded, 5);  /* (4..8)/15 on the diagonal: the tips lie further on */
+    check_contains (r.problem->notes.text[r.problem->notes.n - 1],
                     "warning: 5 points lie on a pre-crack and lose all bonds to both sides");
-    check_contains (r.problem->note[r.problem->nnote - 1], "lattice_offset: [0.5, 0] puts it between them");
+    check_contains (r.problem->notes.text[r.problem->notes.n - 1],
+                    "lattice_offset: [0.5, 0] puts it between them");
     to_the_end (&r);
     /* the run warns, and report.json with it */
     assert_int_equal (told (&r, "5 points lie on a pre-crack"), 1);

@@ -57,10 +57,11 @@ static void check_mixed (int dim, const laws *l, const char *integration, int bo
     const pg_problem *p = mixed.problem;
     size_t across = 0, decided[2] = { 0 };
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++)
-            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
-                size_t b = p->first_bond[set] + e;
-                int end[2] = { p->block[set][q], p->block[PG_NODES][p->rows[set].family.node[e]] };
+        for (size_t q = 0; q < p->bonds.rows[set].n; q++)
+            for (size_t e = p->bonds.rows[set].family.start[q]; e < p->bonds.rows[set].family.start[q + 1];
+                 e++) {
+                size_t b = p->bonds.first[set] + e;
+                int end[2] = { p->block[set][q], p->block[PG_NODES][p->bonds.rows[set].family.node[e]] };
                 int weaker = one[end[0]].utilisation[b] > one[end[1]].utilisation[b] ? end[0] : end[1];
                 assert_true (s.utilisation[b] == one[weaker].utilisation[b]);
                 assert_true (s.factor[b] == fmin (one[end[0]].factor[b], one[end[1]].factor[b]));
@@ -126,7 +127,7 @@ static void break_plate (run *r, size_t broken[3])
             int set;
             size_t point;
             pg_problem_locate (p, r->step.broken[k].bond, &set, &point);
-            int node = p->rows[set].family.node[r->step.broken[k].bond - p->first_bond[set]];
+            int node = p->bonds.rows[set].family.node[r->step.broken[k].bond - p->bonds.first[set]];
             broken[p->block[set][point] + p->block[PG_NODES][node]]++;
         }
     }

@@ -106,8 +106,8 @@ static void volumes_areas_and_sets_of_every_element (void **state)
         assert_memory_equal (clamp->facet, left->facet, left->nfacet * sizeof *left->facet);
         if (t->dim == 1) assert_int_equal (p->cloud.n, along);
         for (int s = PG_NODES; s <= PG_POINTS; s++)
-            for (size_t q = 0; q < p->rows[s].n; q++) {
-                double x = p->rows[s].x[q * (size_t) t->dim];
+            for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
+                double x = p->bonds.rows[s].x[q * (size_t) t->dim];
                 if (g.bend > 0 && fabs (x - 0.5) < 0.06) continue;
                 assert_int_equal (p->block[s][q], x > 0.5);
             }
@@ -123,7 +123,7 @@ static void spacings_follow_the_edges (void **state)
         pg_problem *p = problem_of (&g, corners ? ", points: corners" : "", rock);
         for (size_t i = 0; i < p->cloud.n; i++)
             check_relative (p->cloud.size[i], corners ? 1.0 / 6 : 1.0 / 12, 1e-12);
-        check_relative (p->approx.horizon, 2 * p->cloud.h, 1e-14);
+        check_relative (p->form.approx.horizon, 2 * p->cloud.h, 1e-14);
         pg_problem_free (&p);
         p = problem_of (&g, ", support: equal", rock);
         assert_null (p->cloud.size);
@@ -172,7 +172,7 @@ static void anisotropic_supports_follow_the_elements (void **state)
         check_relative (pg_cloud_length2 (&p->cloud, i, across), 16, 1e-12);
         check_relative (pg_cloud_slender (&p->cloud, i), sqrt (8.5), 1e-12);
     }
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     for (size_t i = 0; i < p->cloud.n; i++) {
         size_t sees = 0;
         for (int j = 0; j < 16; j++) {
@@ -185,7 +185,7 @@ static void anisotropic_supports_follow_the_elements (void **state)
     for (int kind = PG_TRI3; kind < PG_ELEMENTS; kind++) {
         grid g = { (pg_element) kind, 4, 0.1, 1, 1 };
         p = problem_of (&g, ", support: anisotropic, points: corners", rock);
-        f = &p->rows[PG_POINTS].family;                /* each place sees the corners of its own element */
+        f = &p->bonds.rows[PG_POINTS].family; /* each place sees the corners of its own element */
         for (size_t q = 0; q < f->n; q++)
             assert_true (f->start[q + 1] - f->start[q] >= (size_t) pg_element_types[kind].corners);
         pg_problem_free (&p);

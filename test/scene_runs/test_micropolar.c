@@ -74,8 +74,8 @@ static void a_bond_breaks_at_its_limits (void **state)
             if (kind != trials[k].kind && trials[k].breaks_at < 1)
                 print_error ("%s\n", trials[k].name), assert_int_equal (kind, trials[k].kind);
             const pg_statistics *report = pg_solver_report (r.solver, r.state);
-            check_scaled (report->energy_strain + report->energy_dissipated, report->energy_external, 1e-12,
-                          report->energy_external);
+            check_scaled (report->energy.strain + report->energy.dissipated, report->energy.external, 1e-12,
+                          report->energy.external);
             /* what it takes is what it held: four times that of half its limit */
             if (trials[k].breaks_at < 1) {
                 trial half = trials[k];
@@ -83,9 +83,9 @@ static void a_bond_breaks_at_its_limits (void **state)
                 run q = one_bond (path, dim, &half, limit);
                 to_the_end (&q);
                 assert_int_equal (q.state->broken, 0);
-                check_relative (report->energy_dissipated,
-                                4 * pg_solver_report (q.solver, q.state)->energy_strain, 1e-5);
-                assert_true (report->energy_strain == 0);
+                check_relative (report->energy.dissipated,
+                                4 * pg_solver_report (q.solver, q.state)->energy.strain, 1e-5);
+                assert_true (report->energy.strain == 0);
                 clear (&q);
             }
             clear (&r);
@@ -339,7 +339,7 @@ static void newmark_keeps_energy (void **state)
         advance (&r);
         const pg_statistics *p = pg_solver_report_now (r.solver);
         if (r.state->time < 10.6e-3) continue;
-        double all = p->energy_strain + p->energy_kinetic;
+        double all = p->energy.strain + p->energy.kinetic;
         if (isnan (given)) given = all;
         worst = fmax (worst, fabs (all / given - 1));
     }
@@ -363,9 +363,9 @@ static void work_of_a_turning_end (void **state)
                       solvers[k]);
         to_the_end (&r);
         const pg_statistics *p = pg_solver_report_now (r.solver);
-        assert_true (p->energy_kinetic > 0 && p->energy_strain > 0);
+        assert_true (p->energy.kinetic > 0 && p->energy.strain > 0);
         assert_true (fabs (r.step.reaction[8]) + fabs (r.step.reaction[6]) > 0);
-        check_relative (p->energy_strain + p->energy_kinetic, p->energy_external, 1e-9);
+        check_relative (p->energy.strain + p->energy.kinetic, p->energy.external, 1e-9);
         clear (&r);
     }
 }
@@ -386,10 +386,10 @@ static void what_breaking_takes_stays_taken (void **state)
             while (!pg_solver_done (r.solver, r.state)) {
                 advance (&r);
                 const pg_statistics *p = pg_solver_report_now (r.solver);
-                assert_true (p->energy_dissipated >= taken - 1e-12 * p->energy_external);
+                assert_true (p->energy.dissipated >= taken - 1e-12 * p->energy.external);
                 if (r.step.nbroken == 0)
-                    check_scaled (p->energy_dissipated, taken, 1e-12, p->energy_external);
-                taken = p->energy_dissipated;
+                    check_scaled (p->energy.dissipated, taken, 1e-12, p->energy.external);
+                taken = p->energy.dissipated;
             }
             assert_true (taken > 0 && r.state->broken > 100);
             clear (&r);

@@ -41,7 +41,7 @@ static void energy_out_of_bounds_is_told_when_it_happens (void **state)
             advance (&r);
             const pg_statistics *s = pg_solver_report (r.solver, r.state);
             const pg_crack_paths *w = r.state->paths;
-            double now = s->energy_dissipated / s->energy_fracture;
+            double now = s->energy.dissipated / s->energy.fracture;
             int few = w->length < 0.05, last = pg_solver_done (r.solver, r.state);
             if (!isnan (when) || !(w->length > (few ? 0.02 : 0)) || (few && !last)) continue;
             if (now > (few ? 0.75 : 0.9) && now < (few ? 1.3 : 1.1)) continue;
@@ -83,9 +83,9 @@ static void a_cut_that_sets_much_free_is_told (void **state)
         double length = r.state->paths->length;
         advance (&r);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
-        double lost = s->energy_dissipated - before;
+        double lost = s->energy.dissipated - before;
         if (r.state->paths->length > length && fabs (lost) > top) top = fabs (lost), when = r.state->time;
-        before = s->energy_dissipated;
+        before = s->energy.dissipated;
     }
     const char *said = warning_of (&r, "as it is cut");
     assert_non_null (said);

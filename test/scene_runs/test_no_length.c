@@ -23,7 +23,7 @@ static double first_break (int dim, const law *l, double x0, double side)
         "displacement: {x: 0, y: 0%s}}]\n"
         "solver: {kind: static, max_events: 1}\noutput: {at: {levels: 1}, pictures: []}\n",
         dim, low, high, dim == 3 ? 0.2 : 0.1, l->mode, l->failure, l->method, side, z);
-    const pg_rows *points = &r.problem->rows[PG_POINTS];
+    const pg_rows *points = &r.problem->bonds.rows[PG_POINTS];
     size_t short_ones = 0;
     for (size_t p = 0; p < points->n; p++)
         for (size_t e = points->family.start[p]; e < points->family.start[p + 1]; e++)
@@ -36,7 +36,7 @@ static double first_break (int dim, const law *l, double x0, double side)
         int set;
         size_t point, bond = r.step.broken[b].bond;
         pg_problem_locate (r.problem, bond, &set, &point);
-        assert_false (pg_problem_no_bond (r.problem, set, point, bond - r.problem->first_bond[set]));
+        assert_false (pg_problem_no_bond (r.problem, set, point, bond - r.problem->bonds.first[set]));
     }
     clear (&r);
     return factor;

@@ -31,7 +31,7 @@ static double stored (int crack)
 {
     run r = strip (crack, "{criterion: none}", "auto", "{kind: static}");
     to_the_end (&r);
-    double U = pg_solver_report (r.solver, r.state)->energy_strain;
+    double U = pg_solver_report (r.solver, r.state)->energy.strain;
     clear (&r);
     return U;
 }
@@ -39,7 +39,7 @@ static double stored (int crack)
 /* Rows in which a point has lost all its bonds; nobody loses some of its own without a dead neighbour. */
 static void band_of (const run *r, int *lowest, int *highest)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     unsigned char *dead = pg_calloc (f->n, 1);
     *lowest = HIGH, *highest = 0;
     for (size_t i = 0; i < f->n; i++) {

@@ -46,7 +46,7 @@ static pg_patch measured_as (const tension *c, double unit, const char *more, in
     check_ok (pg_problem_build (&p, scene, 1));
     p->plain = plain;
     check_ok (pg_patch_probe (p));
-    pg_patch out = p->patch;
+    pg_patch out = p->quality.patch;
     assert_true (out.measured);
     pg_problem_free (&p);
     pg_scene_free (&scene);
@@ -200,9 +200,10 @@ static void points_without_a_surface_are_measured_inside (void **state)
     check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
     check_ok (pg_problem_build (&p, scene, 1));
     check_ok (pg_patch_probe (p));
-    print_message ("  points of a file: %g, %zu iterations\n", p->patch.error, p->patch.iterations);
-    assert_true (p->patch.held && p->patch.measured && isnan (p->patch.compliance));
-    assert_true (p->patch.error > 1e-3 && p->patch.error < 0.2);
+    print_message ("  points of a file: %g, %zu iterations\n", p->quality.patch.error,
+                   p->quality.patch.iterations);
+    assert_true (p->quality.patch.held && p->quality.patch.measured && isnan (p->quality.patch.compliance));
+    assert_true (p->quality.patch.error > 1e-3 && p->quality.patch.error < 0.2);
     pg_problem_free (&p);
     pg_scene_free (&scene);
     unlink (name);
@@ -335,7 +336,7 @@ static void remark (const char *more, const char *expected)
     check_ok (pg_patch_probe (p));
     check_ok (pg_solver_options_read (&o, p, scene));
     pg_solver_doubts (&doubts, p, &o);
-    assert_int_equal (p->thickness_assumed, 1);
+    assert_int_equal (p->quality.thickness_assumed, 1);
     assert_int_equal (doubts.nwarning, *expected ? 1 : 0);
     if (*expected) check_contains (doubts.warning[0], expected);
     pg_problem_free (&p);

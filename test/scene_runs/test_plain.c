@@ -87,13 +87,13 @@ static run make (const pair *p, int plain)
 static void same_state (const run *a, const run *b)
 {
     const pg_statistics *r = pg_solver_report_now (a->solver), *s = pg_solver_report_now (b->solver);
-    double top = largest_of (b->state->d, b->state->ndof), all = fabs (s->energy_external) + s->energy_strain;
+    double top = largest_of (b->state->d, b->state->ndof), all = fabs (s->energy.external) + s->energy.strain;
     assert_memory_equal (a->state->alive, b->state->alive, a->state->nbond);
     check_below (largest_difference (a->state->d, b->state->d, a->state->ndof), 1e-8 * top);
     check_relative (a->state->factor, b->state->factor, 1e-8);
-    check_scaled (r->energy_strain, s->energy_strain, 1e-8, all);
-    check_scaled (r->energy_external, s->energy_external, 1e-8, all);
-    check_scaled (r->energy_kinetic, s->energy_kinetic, 1e-8, all);
+    check_scaled (r->energy.strain, s->energy.strain, 1e-8, all);
+    check_scaled (r->energy.external, s->energy.external, 1e-8, all);
+    check_scaled (r->energy.kinetic, s->energy.kinetic, 1e-8, all);
 }
 
 static void no_shortcut_changes_a_run (void **state)

@@ -24,7 +24,7 @@ static void within_a_thousandth (const char *path, double force)
     pg_errors e;
     run r = measured (path, 0, NULL, &e);
     /* the pin is one point inside */
-    if (r.problem->nload > 2) assert_int_equal (r.problem->load[2].set->nfacet, 0);
+    if (r.problem->boundary.nload > 2) assert_int_equal (r.problem->boundary.load[2].set->nfacet, 0);
     assert_int_equal (e.nline, 6);
     for (size_t i = 0; i < e.nline; i++) {
         const pg_line_norms *l = &e.line[i];

@@ -22,7 +22,7 @@ static void a_free_body_falls (void **state)
                              "solver: {kind: newmark, dt: 0.05, end: 1, tolerance: 1e-12}\n"
                              "output: {at: {levels: 1}}\n",
                           bodies[k].dim, bodies[k].body, bodies[k].spacing, bodies[k].gravity);
-        assert_true (r.problem->integration->consistent);
+        assert_true (r.problem->form.integration->consistent);
         to_the_end (&r);
         int components;
         double *u = field_of (&r, NULL, "displacement", &components);
@@ -56,8 +56,8 @@ static void a_cantilever_with_a_hole_bends (void **state)
             tip = u[2*i + 1];
     check_relative (tip, -0.4029, 1e-3);
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
-    assert_true (s->balances > 0);
-    check_below (fmax (s->balance_force, s->balance_moment), 1e-10);
+    assert_true (s->balance.states > 0);
+    check_below (fmax (s->balance.force, s->balance.moment), 1e-10);
     pg_free (u);
     clear (&r);
 }
@@ -79,11 +79,11 @@ static void a_turn_gives_no_stress (void **state)
                           "  - {set: top, displacement: {x: '-0.001*y', y: '0.001*x'}}\n"
                           "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
                           method[k]);
-        assert_int_equal (r.problem->integration->consistent, k == 0);
+        assert_int_equal (r.problem->form.integration->consistent, k == 0);
         to_the_end (&r);
         const pg_tip_values *v = pg_solver_tip (r.solver, r.state->paths->tip[0].id);
         check_below (fmax (fabs (v->K[0]), fabs (v->K[1])), 1e-6 * 1e-3);
-        check_below (pg_solver_report (r.solver, r.state)->energy_strain, 1e-20);
+        check_below (pg_solver_report (r.solver, r.state)->energy.strain, 1e-20);
         clear (&r);
     }
 }

@@ -24,7 +24,7 @@ static int *mirror_of (const pg_cloud *cloud, int axis)
 
 static int alive (const run *r, size_t i, int j)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     for (size_t b = f->start[i]; b < f->start[i + 1]; b++) if (f->node[b] == j) return r->state->alive[b];
     return -1;
 }
@@ -32,7 +32,7 @@ static int alive (const run *r, size_t i, int j)
 /* Bonds whose mirror image is not in the same state; dead: bonds that are broken. */
 static size_t unlike_their_image (const run *r, int axis, size_t *dead)
 {
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     int *mirror = mirror_of (&r->problem->cloud, axis);
     size_t unlike = 0;
     *dead = 0;

@@ -32,7 +32,7 @@ typedef struct { double length, dissipated, time, at; } mark;
 static mark mark_of (run *r)
 {
     const pg_statistics *report = pg_solver_report_now (r->solver);
-    return (mark){ r->state->paths->length, report->energy_dissipated, report->motion_time,
+    return (mark){ r->state->paths->length, report->energy.dissipated, report->unstable.time,
                    r->state->paths->tip[0].x[1] };
 }
 

@@ -89,7 +89,7 @@ static course crack_runs (const char *solver)
         if (length > 0.22) out.share += tip->J / 106.1, out.looks++;
         if (!(ct >= 0.6 + 0.3 * k)) continue;
         const pg_statistics *report = pg_solver_report_now (r.solver);
-        out.dissipated[k] = report->energy_dissipated, out.needed[k] = report->energy_fracture;
+        out.dissipated[k] = report->energy.dissipated, out.needed[k] = report->energy.fracture;
         out.length[k++] = length;
     }
     out.share /= (double) out.looks;

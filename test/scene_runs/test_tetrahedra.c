@@ -93,11 +93,12 @@ static void answers_are_those_of_the_factor (void **state)
         run a = case_of (k, "linear: pcg"), b = case_of (k, "linear: cholmod");
         to_the_end (&a), to_the_end (&b);
         const pg_statistics *by = pg_solver_report_now (a.solver), *factor = pg_solver_report_now (b.solver);
-        assert_int_equal (strncmp (by->preconditioner, "finite elements, multilevel, ", 29), 0);
-        assert_int_equal (by->factorizations, 0);
-        assert_true (factor->factorizations > 0 && factor->preconditioner[0] == 0);
-        if (by->cg_iterations > cases[k].most * (size_t) by->solves)
-            fail_msg ("case %zu: %zu iterations in %ld solves", k, by->cg_iterations, by->solves);
+        assert_int_equal (strncmp (by->linear.preconditioner, "finite elements, multilevel, ", 29), 0);
+        assert_int_equal (by->linear.factorizations, 0);
+        assert_true (factor->linear.factorizations > 0 && factor->linear.preconditioner[0] == 0);
+        if (by->linear.cg_iterations > cases[k].most * (size_t) by->linear.solves)
+            fail_msg ("case %zu: %zu iterations in %ld solves", k, by->linear.cg_iterations,
+                      by->linear.solves);
         double off = difference (&a, &b);
         if (!(off < 1e-6)) fail_msg ("case %zu: off by %g", k, off);
         clear (&a), clear (&b);
@@ -115,7 +116,7 @@ static void iterations_do_not_grow_with_the_size (void **state)
             run r = box_of (size[k].kind, size[k].n[i], 0.2, "", usual, "linear: pcg");
             to_the_end (&r);
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            used[i] = report->cg_iterations / (size_t) report->solves;
+            used[i] = report->linear.cg_iterations / (size_t) report->linear.solves;
             clear (&r);
         }
         if ((double) used[1] > 1.25 * (double) used[0])

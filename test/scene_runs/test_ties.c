@@ -90,7 +90,7 @@ static void results_of (const plate *p, const cut *c, const image *v, const char
         fmin (a[0], b[0]), fmin (a[1], b[1]), fmax (a[0], b[0]), fmax (a[1], b[1]), shape, v->length, lattice,
         p->ratio, method, side (v, -1), side (v, 1), pull[0], pull[1]);
     to_the_end (&r);
-    out[0] = pg_solver_report (r.solver, r.state)->energy_strain / (v->length * v->length);
+    out[0] = pg_solver_report (r.solver, r.state)->energy.strain / (v->length * v->length);
     for (int j = 0; j < 2; j++)
         out[1 + j] = (v->T[0][j] * r.step.reaction[0] + v->T[1][j] * r.step.reaction[1]) / v->length;
     clear (&r);

@@ -172,8 +172,8 @@ static inline pg_status try_link (linked *l, const pg_solver_options *o, const p
         .criterion = &l->none,
         .material = &l->material,
         .nmaterial = 1,
-        .load = &l->load,
-        .nload = the.push || the.lead
+        .boundary.load = &l->load,
+        .boundary.nload = the.push || the.lead
     };
     PG_TRY (pg_solver_create_with (&l->solver, &l->problem, o, type));
     PG_TRY (pg_state_create (&l->state, &l->problem, 1));

@@ -148,9 +148,9 @@ static void without_a_constant_part_the_events_are_the_same (void **state)
             assert_true (a.step.nbroken == b.step.nbroken && a.step.nbroken > 0);
             for (size_t k = 0; k < a.step.nbroken; k++)
                 assert_int_equal (a.step.broken[k].bond, b.step.broken[k].bond);
-            check_scaled (pg_solver_report_now (b.solver)->energy_external,
-                          pg_solver_report_now (a.solver)->energy_external, 1e-6,
-                          pg_solver_report_now (a.solver)->energy_external);
+            check_scaled (pg_solver_report_now (b.solver)->energy.external,
+                          pg_solver_report_now (a.solver)->energy.external, 1e-6,
+                          pg_solver_report_now (a.solver)->energy.external);
         }
         clear (&a), clear (&b);
     }

@@ -63,11 +63,11 @@ static void balanced (const run *r, const char *name, double limit)
 {
     const pg_statistics *s = pg_solver_report (r->solver, r->state);
     double allowed = pg_balance_allowed (s, r->problem);
-    print_message ("  %-40s forces %.1e, moments %.1e of %.1e, %ld states\n", name, s->balance_force,
-                   s->balance_moment, allowed, s->balances);
-    assert_true (s->balances > 0);
-    check_below (fmax (s->balance_force, s->balance_moment), allowed);
-    check_below (fmax (s->balance_force, s->balance_moment), limit);
+    print_message ("  %-40s forces %.1e, moments %.1e of %.1e, %ld states\n", name, s->balance.force,
+                   s->balance.moment, allowed, s->balance.states);
+    assert_true (s->balance.states > 0);
+    check_below (fmax (s->balance.force, s->balance.moment), allowed);
+    check_below (fmax (s->balance.force, s->balance.moment), limit);
     for (size_t k = 0; k < s->nwarning; k++) assert_null (strstr (s->warning[k], "miss balance"));
 }
 

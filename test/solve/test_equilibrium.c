@@ -56,15 +56,16 @@ static void answers_agree (void **state)
         run c = scene_of (1, "%s" ONCE, cases[k].body, "linear: pcg, preconditioner: jacobi");
         to_the_end (&a), to_the_end (&b), to_the_end (&c);
         print_message ("%s: %zu iterations, by the diagonal %zu; difference %.1e\n", cases[k].what,
-                       report_of (&a)->cg_iterations, report_of (&c)->cg_iterations, difference (&a, &b));
+                       report_of (&a)->linear.cg_iterations, report_of (&c)->linear.cg_iterations,
+                       difference (&a, &b));
         check_below (a.step.residual, 1e-8);
         check_below (difference (&a, &b), 1e-8);
         check_below (difference (&c, &b), 1e-7);
-        assert_true (report_of (&a)->cg_iterations <= 20
-                     && 3 * report_of (&a)->cg_iterations < report_of (&c)->cg_iterations);
-        check_contains (report_of (&a)->preconditioner, "multilevel");
-        assert_string_equal (report_of (&c)->preconditioner, "jacobi");
-        assert_int_equal (report_of (&a)->preconditioners, 1);
+        assert_true (report_of (&a)->linear.cg_iterations <= 20
+                     && 3 * report_of (&a)->linear.cg_iterations < report_of (&c)->linear.cg_iterations);
+        check_contains (report_of (&a)->linear.preconditioner, "multilevel");
+        assert_string_equal (report_of (&c)->linear.preconditioner, "jacobi");
+        assert_int_equal (report_of (&a)->linear.preconditioners, 1);
         clear (&a), clear (&b), clear (&c);
     }
 }
@@ -94,9 +95,11 @@ static void forces_without_a_matrix (void **state)
                           "linear: pcg, preconditioner: jacobi");
         to_the_end (&a), to_the_end (&c);
         print_message ("%s, %s, %s: %zu iterations, by the diagonal %zu\n", cases[k].force, cases[k].plane,
-                       cases[k].nu, report_of (&a)->cg_iterations, report_of (&c)->cg_iterations);
+                       cases[k].nu, report_of (&a)->linear.cg_iterations,
+                       report_of (&c)->linear.cg_iterations);
         check_below (difference (&a, &c), 1e-7);
-        assert_true (report_of (&a)->cg_iterations <= 20 && report_of (&c)->cg_iterations > 100);
+        assert_true (report_of (&a)->linear.cg_iterations <= 20
+                     && report_of (&c)->linear.cg_iterations > 100);
         clear (&a), clear (&c);
     }
 }
@@ -119,10 +122,10 @@ static void cascades_are_the_same (void **state)
     }
     const pg_statistics *r = report_of (&a);
     print_message ("%ld events, %ld bonds, %zu iterations in %ld solves, %ld preconditioners\n", r->events,
-                   r->broken, r->cg_iterations, r->solves, r->preconditioners);
-    assert_true (r->events >= 25 && r->preconditioners >= 1 && r->preconditioners < r->events / 4
-                 && r->factorizations == 0);
-    assert_true (r->cg_iterations < 20 * (size_t) r->solves);
+                   r->broken, r->linear.cg_iterations, r->linear.solves, r->linear.preconditioners);
+    assert_true (r->events >= 25 && r->linear.preconditioners >= 1
+                 && r->linear.preconditioners < r->events / 4 && r->linear.factorizations == 0);
+    assert_true (r->linear.cg_iterations < 20 * (size_t) r->linear.solves);
     int told = 0;
     for (size_t k = 0; k < r->nskipped; k++) told |= strstr (r->skipped[k].what, "preconditioner in") != NULL;
     assert_true (told);
@@ -148,10 +151,10 @@ static void the_worst_bond_breaks_in_its_middle (void **state)
         int set;
         size_t point;
         pg_problem_locate (b.problem, q->bond, &set, &point);
-        const pg_rows *r = &b.problem->rows[set];
+        const pg_rows *r = &b.problem->bonds.rows[set];
         const double *from = r->x + 2 * point,
                      *to = b.problem->cloud.x
-                           + 2 * (size_t) r->family.node[q->bond - b.problem->first_bond[set]];
+                           + 2 * (size_t) r->family.node[q->bond - b.problem->bonds.first[set]];
         assert_int_equal (q->set, set);
         for (int c = 0; c < 2; c++)
             check_scaled (q->place[c], 0.5 * (from[c] + to[c]), 1e-14, b.problem->cloud.h);
@@ -219,8 +222,8 @@ static void auto_goes_by_size (void **state)
         run r = scene_of (1, "%sspacing: %g\n" ROCK ONCE, cases[k].body, cases[k].h,
                           strstr (cases[k].body, "n: 3") ? "0.25" : "0.3333", "linear: auto");
         to_the_end (&r);
-        assert_int_equal (report_of (&r)->factorizations, !cases[k].cg);
-        assert_int_equal (report_of (&r)->preconditioners, cases[k].cg);
+        assert_int_equal (report_of (&r)->linear.factorizations, !cases[k].cg);
+        assert_int_equal (report_of (&r)->linear.preconditioners, cases[k].cg);
         clear (&r);
     }
 }

@@ -82,9 +82,9 @@ static void the_same_bonds_break (void **state)
         const pg_statistics *quick = pg_solver_report (a.solver, a.state),
                             *plain = pg_solver_report (b.solver, b.state);
         print_message ("case %d: %ld events, %ld factorizations for %ld\n", c, quick->events,
-                       quick->factorizations, plain->factorizations);
+                       quick->linear.factorizations, plain->linear.factorizations);
         assert_true (quick->events > 5);
-        assert_true (2 * quick->factorizations <= plain->factorizations);
+        assert_true (2 * quick->linear.factorizations <= plain->linear.factorizations);
         clear (&a), clear (&b);
     }
 }
@@ -160,13 +160,13 @@ static void end (bench *b)
 static void cut (bench *b, int k, int alive)
 {
     const pg_problem *p = b->r.problem;
-    pg_changes changes = { .bond = pg_calloc (p->first_bond[PG_BOND_SETS], sizeof *changes.bond) };
+    pg_changes changes = { .bond = pg_calloc (p->bonds.first[PG_BOND_SETS], sizeof *changes.bond) };
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++)
-            for (size_t e = p->rows[s].family.start[q]; e < p->rows[s].family.start[q + 1]; e++) {
-                const double *x = p->rows[s].x + 2*q,
-                             *y = p->cloud.x + 2*(size_t) p->rows[s].family.node[e];
-                size_t bond = p->first_bond[s] + e;
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++)
+            for (size_t e = p->bonds.rows[s].family.start[q]; e < p->bonds.rows[s].family.start[q + 1]; e++) {
+                const double *x = p->bonds.rows[s].x + 2*q,
+                             *y = p->cloud.x + 2*(size_t) p->bonds.rows[s].family.node[e];
+                size_t bond = p->bonds.first[s] + e;
                 double at = 0.5 * (x[0] + y[0]) - (6e-3 + 0.3e-3 * k);
                 if ((x[1] - 8e-3) * (y[1] - 8e-3) >= 0 || at < 0 || at >= 0.3e-3) continue;
                 b->r.state->alive[bond] = (unsigned char) alive;

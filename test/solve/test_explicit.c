@@ -150,10 +150,10 @@ static void energy_stays_over_ten_thousand_steps (void **state)
         while (!pg_solver_done (l.solver, l.state)) {
             check_ok (pg_solver_step (l.solver, l.state, &step));
             const pg_statistics *r = pg_solver_report_now (l.solver);
-            if (first == 0) first = r->energy_strain + r->energy_kinetic;
+            if (first == 0) first = r->energy.strain + r->energy.kinetic;
             assert_true (first > 0);
-            check_relative (r->energy_strain + r->energy_kinetic, first, 1e-11);
-            check_scaled (r->energy_dissipated, 0, 1e-11, first);
+            check_relative (r->energy.strain + r->energy.kinetic, first, 1e-11);
+            check_scaled (r->energy.dissipated, 0, 1e-11, first);
         }
         check_relative (pg_solver_settled (l.solver)->dt, 0.9 * 2 / sqrt (4 * the.k / the.m), 1e-12);
         unlink_all (&l);
@@ -181,8 +181,8 @@ static void damping_and_loads_close_the_balance (void **state)
             link_up (&l, &o, &chain_type);
             run_all (&l);
             const pg_statistics *r = pg_solver_report_now (l.solver);
-            assert_true (r->energy_damping > 0.01 * fabs (r->energy_external));
-            check_scaled (r->energy_dissipated, 0, 1e-11, fabs (r->energy_external));
+            assert_true (r->energy.damping > 0.01 * fabs (r->energy.external));
+            check_scaled (r->energy.dissipated, 0, 1e-11, fabs (r->energy.external));
             unlink_all (&l);
         }
 }
@@ -202,8 +202,8 @@ static void supports_move_as_they_are_told (void **state)
         check_relative (l.state->v[0], 2, 1e-12);
         check_scaled (l.state->a[0], 0, 1e-8, 1);
         /* set off at once: m v^2 / 2 */
-        check_relative (pg_solver_report_now (l.solver)->energy_external, 0.5 * 2 * 4, 1e-12);
-        check_relative (pg_solver_report_now (l.solver)->energy_kinetic, 0.5 * 2 * 4, 1e-12);
+        check_relative (pg_solver_report_now (l.solver)->energy.external, 0.5 * 2 * 4, 1e-12);
+        check_relative (pg_solver_report_now (l.solver)->energy.kinetic, 0.5 * 2 * 4, 1e-12);
         unlink_all (&l);
         the.lead = throw;
         link_up (&l, &o, &chain_type);
@@ -354,8 +354,8 @@ static void final_state (const char *kind, long rows, int threads, int stops, do
     memcpy (out, l.state->d, the.n * sizeof *out);
     memcpy (out + the.n, l.state->v, the.n * sizeof *out);
     const pg_statistics *r = pg_solver_report_now (l.solver);
-    out[2 * the.n] = r->energy_external, out[2 * the.n + 1] = r->energy_damping,
-            out[2 * the.n + 2] = r->energy_kinetic;
+    out[2 * the.n] = r->energy.external, out[2 * the.n + 1] = r->energy.damping,
+            out[2 * the.n + 2] = r->energy.kinetic;
     unlink_all (&l);
 }
 
@@ -404,8 +404,8 @@ static void energies_of_rows (const char *kind, int fails, double *out)
     }
     assert_int_equal (refused, fails > 0);
     const pg_statistics *r = pg_solver_report_now (l.solver);
-    out[0] = r->energy_external, out[1] = r->energy_damping, out[2] = r->energy_kinetic, out[3] =
-        r->energy_dissipated;
+    out[0] = r->energy.external, out[1] = r->energy.damping, out[2] = r->energy.kinetic, out[3] =
+        r->energy.dissipated;
     unlink_all (&l);
 }
 

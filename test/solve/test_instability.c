@@ -97,9 +97,9 @@ static void a_held_load_is_the_limit_of_fixed_steps (void **state)
             follow (&a, &held, ENOUGH);
             const pg_statistics *report = pg_solver_report_now (a.solver);
             assert_int_equal (held.n, ENOUGH);
-            assert_true ((report->instabilities > 0) == (report->unstable_steps > 0));
+            assert_true ((report->unstable.count > 0) == (report->unstable.steps > 0));
             assert_int_equal (report->bonds_over_limit, 0);
-            unstable += report->unstable_steps;
+            unstable += report->unstable.steps;
             double low = held.factor[0] * (1 - 1e-5), high = held.factor[ENOUGH - 1] * (1 + 1e-5);
             snprintf (steps, sizeof steps, "stepping: fixed, steps: %d", STEPS);
             snprintf (ramp, sizeof ramp, ", ramp: '%.17g + %.17g*t'", low, high - low);
@@ -139,7 +139,7 @@ static void snap_back_is_followed_to_the_limit (void **state)
             if (load == 0) assert_true (fell);
             falls += fell;
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            assert_int_equal (report->instabilities, 0);
+            assert_int_equal (report->unstable.count, 0);
             clear (&r);
         }
     assert_true (falls > (CASES + CASES / 2) / loads_apart ());
@@ -171,7 +171,7 @@ static void through_a_motion (run *r, double *broken, double *near)
     int moved = 0;
     *broken = 0;
     while (!pg_solver_done (r->solver, r->state)) {
-        double kinetic = pg_solver_report_now (r->solver)->energy_kinetic;
+        double kinetic = pg_solver_report_now (r->solver)->energy.kinetic;
         advance (r);
         *broken += r->step.dissipated;
         for (size_t k = 0; k < r->step.nbroken && !(r->step.motion > 0); k++) {
@@ -182,7 +182,7 @@ static void through_a_motion (run *r, double *broken, double *near)
         const pg_statistics *now = pg_solver_report_now (r->solver);
         if (r->step.instability && !r->step.nbroken) assert_true (r->step.dissipated == 0);
         if (r->step.instability) assert_true (r->step.motion > 0);
-        if (moved && kinetic > 0 && now->energy_kinetic == 0) return;
+        if (moved && kinetic > 0 && now->energy.kinetic == 0) return;
     }
     assert_true (moved);
 }
@@ -207,18 +207,18 @@ static void a_motion_begins_and_ends_smoothly (void **state)
             run r = plate (c, load, solver);
             through_a_motion (&r, &broken, &near);
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            int shattered = report->energy_dissipated < -report->energy_external;
+            int shattered = report->energy.dissipated < -report->energy.external;
             /* a bond at a support takes its force along */
             if (near > 4e-3 && !shattered) {
-                if (!(report->switch_jump < 1e-8)) print_error ("case %d, load %d\n", c, load);
-                check_below (report->switch_jump, 1e-8);
+                if (!(report->unstable.jump < 1e-8)) print_error ("case %d, load %d\n", c, load);
+                check_below (report->unstable.jump, 1e-8);
                 far++;
             }
-            assert_true (report->instabilities == 1 && report->unstable_steps > 10);
-            check_scaled (broken, report->energy_dissipated, 1e-4, report->energy_external);
-            for (size_t i = 0; i < r.state->ndof && report->energy_kinetic == 0; i++)
+            assert_true (report->unstable.count == 1 && report->unstable.steps > 10);
+            check_scaled (broken, report->energy.dissipated, 1e-4, report->energy.external);
+            for (size_t i = 0; i < r.state->ndof && report->energy.kinetic == 0; i++)
                 assert_true (r.state->v[i] == 0);
-            if (report->energy_kinetic == 0) {
+            if (report->energy.kinetic == 0) {
                 check_below (unbalanced (&r), 1e-8);
                 rested++;
             }
@@ -236,13 +236,13 @@ static void an_undamped_motion_keeps_its_energy (void **state)
     while (!(r.step.motion > 0)) advance (&r);
     while (looks < 20) {
         const pg_statistics *now = pg_solver_report_now (r.solver);
-        double before = now->energy_external - now->energy_strain - now->energy_kinetic;
+        double before = now->energy.external - now->energy.strain - now->energy.kinetic;
         advance (&r);
         assert_true (r.step.motion > 0 && r.step.motion < 40e-6);
         if (r.step.nbroken) continue;
-        check_scaled (now->energy_external - now->energy_strain - now->energy_kinetic, before, 1e-10,
-                      now->energy_strain);
-        assert_true (now->energy_kinetic > 0);
+        check_scaled (now->energy.external - now->energy.strain - now->energy.kinetic, before, 1e-10,
+                      now->energy.strain);
+        assert_true (now->energy.kinetic > 0);
         looks++;
     }
     clear (&r);

@@ -119,7 +119,7 @@ static void what_cannot_be_is_refused (void **state)
     run a = broken (solvers[0]);
     memory m = { .n = 0 };
     check_ok (walk (&m, &a, 0));
-    long nbond = (long) a.problem->first_bond[PG_BOND_SETS];
+    long nbond = (long) a.problem->bonds.first[PG_BOND_SETS];
     const struct { const char *name; size_t at; long to; const char *words;
     } wrong[] = {
         { "state.counts", 0, -1, "state is -1, not from 0" },
@@ -231,16 +231,17 @@ static void elements_in_place_of_a_factor_go_on_bit_by_bit (void **state)
         check_ok (walk (&m, &a, 0));
         meanwhile = *(const long *) (const void *) item_of (&m, "system.ways")->value;
     }
-    factors = pg_solver_report_now (a.solver)->factorizations;
+    factors = pg_solver_report_now (a.solver)->linear.factorizations;
     check_ok (walk (&m, &b, 1));
     for (int k = 0; k < 6 && !pg_solver_done (a.solver, a.state); k++) {
         advance (&a), advance (&b);
         assert_int_equal (a.step.nbroken, b.step.nbroken);
         assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
     }
-    print_message ("factors %ld, then %ld\n", factors, pg_solver_report_now (a.solver)->factorizations);
-    assert_int_equal (pg_solver_report_now (a.solver)->factorizations,
-                      pg_solver_report_now (b.solver)->factorizations);
+    print_message ("factors %ld, then %ld\n", factors,
+                   pg_solver_report_now (a.solver)->linear.factorizations);
+    assert_int_equal (pg_solver_report_now (a.solver)->linear.factorizations,
+                      pg_solver_report_now (b.solver)->linear.factorizations);
     forget (&m);
     clear (&a), clear (&b);
 }
@@ -289,10 +290,12 @@ static void texts_end_whatever_was_read (void **state)
 {
     (void) state;
     run a = broken (solvers[0]), b = plate (solvers[0]);
-    memory m = { .wrong = "report.solver", .at = sizeof ((pg_statistics *) NULL)->solver - 1, .to = 'x' };
+    memory m = { .wrong = "report.solver",
+                 .at = sizeof ((pg_statistics *) NULL)->linear.solver - 1,
+                 .to = 'x' };
     check_ok (walk (&m, &a, 0));
     check_ok (walk (&m, &b, 1));
-    assert_int_equal (pg_solver_report_now (b.solver)->solver[m.at], 0);
+    assert_int_equal (pg_solver_report_now (b.solver)->linear.solver[m.at], 0);
     forget (&m);
     clear (&a), clear (&b);
 }

@@ -133,16 +133,16 @@ static run plate (int k)
 static void compare (const run *a, const run *b, const char *what, const char *how)
 {
     const pg_statistics *x = pg_solver_report_now (a->solver), *y = pg_solver_report_now (b->solver);
-    double size = largest_of (a->state->d, a->state->ndof), energy = fabs (x->energy_external) + 1e-30,
+    double size = largest_of (a->state->d, a->state->ndof), energy = fabs (x->energy.external) + 1e-30,
            apart = largest_difference (a->state->d, b->state->d, a->state->ndof) / size;
     int same = memcmp (a->state->alive, b->state->alive, a->state->nbond) == 0
                && a->state->step == b->state->step && a->state->iterations == b->state->iterations
                && a->state->events == b->state->events && a->state->broken == b->state->broken
                && x->broken == y->broken && x->steps == y->steps;
-    double work = fabs (x->energy_external - y->energy_external) / energy,
-           taken = fabs (x->energy_dissipated - y->energy_dissipated) / energy,
-           rest = (fabs (x->energy_kinetic - y->energy_kinetic)
-                   + fabs (x->energy_damping - y->energy_damping)) / energy;
+    double work = fabs (x->energy.external - y->energy.external) / energy,
+           taken = fabs (x->energy.dissipated - y->energy.dissipated) / energy,
+           rest = (fabs (x->energy.kinetic - y->energy.kinetic)
+                   + fabs (x->energy.damping - y->energy.damping)) / energy;
     if (!same || !(apart < 1e-9) || !(work < 1e-9) || !(taken < 1e-9) || !(rest < 1e-9))
         fail_msg ("%s, %s: same bonds and counts %d; apart: displacement %.2g, work %.2g, dissipated %.2g, "
                   "motion %.2g", what, how, same, apart, work, taken, rest);

@@ -91,10 +91,10 @@ static void energy_stays (dynamic *r)
     for (int k = 0; k < 201; k++) {
         advance (r);
         const pg_statistics *report = pg_solver_report_now (r->solver);
-        if (k == 0) first = energy (r), told = report->energy_strain + report->energy_kinetic;
+        if (k == 0) first = energy (r), told = report->energy.strain + report->energy.kinetic;
         assert_true (first > 0);
         check_relative (energy (r), first, 1e-9);
-        check_relative (report->energy_strain + report->energy_kinetic, told, 1e-9);
+        check_relative (report->energy.strain + report->energy.kinetic, told, 1e-9);
     }
     check_relative (told, first, 1e-9);
     close_run (r);
@@ -244,7 +244,7 @@ static void pull (const char *load, int power, double tolerance_work)
         check_scaled (r.state->v[r.n - 1], v, 1e-6, U);
         check_scaled (r.state->a[r.n - 1], a, 1e-3, U);
         if (power > 1) check_scaled (step.reaction[0], v, 0.01, U);
-        check_below (fabs (report->energy_dissipated), tolerance_work * U * U);
+        check_below (fabs (report->energy.dissipated), tolerance_work * U * U);
     }
     close_run (&r);
 }
@@ -307,8 +307,8 @@ static void nothing_is_lost_without_damping (void **state)
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            assert_true (report->energy_external > 0);
-            check_below (fabs (report->energy_dissipated), 1e-9 * report->energy_external);
+            assert_true (report->energy.external > 0);
+            check_below (fabs (report->energy.dissipated), 1e-9 * report->energy.external);
         }
         close_run (&r);
     }

@@ -57,7 +57,7 @@ static double collide (const char *integration, const char *more, const char *ki
         advance (&r);
         m = look (&r);
         const pg_statistics *report = pg_solver_report (r.solver, r.state);
-        m.energy = report->energy_kinetic + report->energy_strain;
+        m.energy = report->energy.kinetic + report->energy.strain;
         const pg_contact_values *v = pg_solver_contact (r.solver, &n);
         assert_true (n >= 1);
         for (size_t k = 0; k < n; k++) {
@@ -127,7 +127,7 @@ static void solids_collide (const char *kind, double oblique, const char *linear
         if (kept) advance_alike (&r, &again);
         else advance (&r);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
-        double energy = s->energy_kinetic + s->energy_strain + s->energy_friction;
+        double energy = s->energy.kinetic + s->energy.strain + s->energy.friction;
         const pg_contact_values *v = pg_solver_contact (r.solver, &n);
         assert_true (n >= 2);
         for (size_t k = 0; k < n; k++) {
@@ -146,7 +146,7 @@ static void solids_collide (const char *kind, double oblique, const char *linear
     }
     for (size_t i = 0; i < r.state->ndof; i += 3)
         if (r.problem->cloud.x[i] > 2) right = fmax (right, r.state->v[i]);
-    double friction = pg_solver_report (r.solver, r.state)->energy_friction / (0.5 * speed * start);
+    double friction = pg_solver_report (r.solver, r.state)->energy.friction / (0.5 * speed * start);
     print_message ("in space, %s, %s, oblique by %g: energy and friction off by %.1e, friction took %.1e, "
                    "overlap of means %.1e, apart by %.2e\n", kind, linear, oblique, grown, friction, overlap,
                    parted);
@@ -194,8 +194,8 @@ static void a_slow_crack_comes_to_its_equilibrium (void **state)
             off[1] = fmax (off[1], fabs (v[i].slip[0] - w[i].slip[0]));
             sticks += v[i].status == PG_CONTACT_STICK;
         }
-        double taken = pg_solver_report (a.solver, a.state)->energy_friction,
-               rest = pg_solver_report (b.solver, b.state)->energy_friction;
+        double taken = pg_solver_report (a.solver, a.state)->energy.friction,
+               rest = pg_solver_report (b.solver, b.state)->energy.friction;
         print_message ("mu %g: pressure off by %.1e, slip by %.1e of %.2e, friction took %.4e (at rest "
                        "%.4e)\n", coefficient[k], off[0] / pressure, off[1] / fmax (slip, 1e-300), slip,
                        taken, rest);
@@ -255,11 +255,11 @@ static void bonds_break_around_closed_faces (void **state)
         const pg_statistics *r = pg_solver_report (a.solver, a.state),
                             *s = pg_solver_report (b.solver, b.state);
         print_message ("dt %g: %zu bonds, %zu times closed, overlap of means %.1e, friction took %.3e\n", dt,
-                       broken, closed, overlap, r->energy_friction);
-        assert_true (broken >= 2 * most / 3 && closed > 10 && kept && r->energy_friction > 0);
+                       broken, closed, overlap, r->energy.friction);
+        assert_true (broken >= 2 * most / 3 && closed > 10 && kept && r->energy.friction > 0);
         assert_true (overlap <= 1e-12 * 0.03);
-        check_relative (r->energy_friction, s->energy_friction, 1e-6);
-        check_relative (r->energy_strain, s->energy_strain, 1e-6);
+        check_relative (r->energy.friction, s->energy.friction, 1e-6);
+        check_relative (r->energy.strain, s->energy.strain, 1e-6);
         pg_free (t.byte);
         clear (&a), clear (&b), clear (&c);
     }
@@ -285,8 +285,8 @@ static void a_run_goes_on_bit_by_bit (void **state)
         const pg_contact_values *v = pg_solver_contact (a.solver, &n), *w = pg_solver_contact (b.solver, &m);
         assert_true (n == m && v[0].pressure == w[0].pressure && v[0].slip[0] == w[0].slip[0]);
     }
-    assert_true (pg_solver_report (a.solver, a.state)->energy_friction
-                 == pg_solver_report (b.solver, b.state)->energy_friction);
+    assert_true (pg_solver_report (a.solver, a.state)->energy.friction
+                 == pg_solver_report (b.solver, b.state)->energy.friction);
     pg_free (t.byte);
     clear (&a), clear (&b);
 }

@@ -45,10 +45,10 @@ static void run_rupture (run *a, run *b, const rupture *p, double *start)
         if (kept && through == 0) advance_alike (a, b);
         else advance (a);
         const pg_statistics *r = pg_solver_report (a->solver, a->state);
-        double length = a->state->paths->length, lost = r->energy_dissipated;
+        double length = a->state->paths->length, lost = r->energy.dissipated;
         if (length == 0) {
             *start = 1.1 * fmin (1, a->state->time / p->ramp);
-            assert_true (fabs (lost) <= 1e-9 * r->energy_strain);      /* nothing but friction */
+            assert_true (fabs (lost) <= 1e-9 * r->energy.strain);      /* nothing but friction */
         } else least = fmin (least, lost);
         if (!kept && length >= 0.5 * all) {
             keep (a, &t, 0);
@@ -56,7 +56,7 @@ static void run_rupture (run *a, run *b, const rupture *p, double *start)
             keep (b, &t, 1);
             kept = 1;
         }
-        if (through == 0 && length >= all * (1 - 1e-9) && r->energy_fracture >= 1e-3 * all * (1 - 1e-9))
+        if (through == 0 && length >= all * (1 - 1e-9) && r->energy.fracture >= 1e-3 * all * (1 - 1e-9))
             through = lost;
         else if (through > 0) check_relative (lost, through, 1e-9);
     }
@@ -78,14 +78,14 @@ static void slip_surfaces_run (void **state)
         double start;
         run_rupture (&a, &b, p, &start);
         const pg_statistics *r = pg_solver_report (a.solver, a.state);
-        taken[k] = r->energy_dissipated / r->energy_fracture;
+        taken[k] = r->energy.dissipated / r->energy.fracture;
         print_message ("mu %g: starts at %.4f of the balance, facets took %.4f of their energy, friction "
                        "%.4e, overlap %.1e spacings (of means %.1e)\n", p->friction, start, taken[k],
-                       r->energy_friction, r->overlap_max / 0.125, r->contact_overlap / 0.125);
+                       r->energy.friction, r->contact.overlap_max / 0.125, r->contact.overlap / 0.125);
         assert_true (start >= 1 && start <= 1.08);     /* at rest 1.03; the ramp leaves waves of 3 % */
         assert_true (taken[k] >= 0.9 && taken[k] <= 1.2);
-        assert_true (p->friction > 0 ? r->energy_friction > 1e-3 : fabs (r->energy_friction) <= 1e-15);
-        assert_true (r->overlap_max <= 1e-3 * 0.125 && r->contact_overlap <= 1e-4 * 0.125);
+        assert_true (p->friction > 0 ? r->energy.friction > 1e-3 : fabs (r->energy.friction) <= 1e-15);
+        assert_true (r->contact.overlap_max <= 1e-3 * 0.125 && r->contact.overlap <= 1e-4 * 0.125);
         /* it goes straight on */
         for (size_t i = 0; i < a.state->paths->ntip; i++)
             check_absolute (a.state->paths->tip[i].x[1], p->offset, 1e-9);
@@ -158,8 +158,8 @@ static void a_free_plate_keeps_its_momentum (void **state)
     }
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     print_message ("grown by %.1f, friction took %.2e, overlap of means %.1e\n", r.state->paths->length,
-                   s->energy_friction, s->contact_overlap);
-    assert_true (r.state->paths->length > 3.999 && s->energy_friction > 0);
+                   s->energy.friction, s->contact.overlap);
+    assert_true (r.state->paths->length > 3.999 && s->energy.friction > 0);
     pg_free (mass);
     clear (&r);
 }

@@ -80,9 +80,9 @@ static void energy_stays_with_consistent_mass (void **state)
     dynamic r = bar (0.05, 5e-3, 4, "consistent", 0);
     free_end (&r, 3);
     const pg_statistics *report = pg_solver_report_now (r.solver);
-    double energy = report->energy_strain + report->energy_kinetic;
+    double energy = report->energy.strain + report->energy.kinetic;
     assert_true (energy > 0);
-    check_scaled (report->energy_dissipated, 0, 1e-8, energy);
+    check_scaled (report->energy.dissipated, 0, 1e-8, energy);
     close_run (&r);
 }
 
@@ -115,7 +115,7 @@ static void numerical_damping_takes_what_the_step_cannot_resolve (void **state)
             dynamic r = bar (0.05, 0.1, 20, "lumped", a ? -0.3 : 0);
             free_end (&r, m ? 31 : 1);
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            kept[a][m] = (report->energy_strain + report->energy_kinetic) / (report->energy_external);
+            kept[a][m] = (report->energy.strain + report->energy.kinetic) / (report->energy.external);
             close_run (&r);
         }
     print_message ("energy kept: without %.4f and %.4f, with alpha %.4f (lowest) and %.2e (high)\n",

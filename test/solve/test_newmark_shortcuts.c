@@ -108,12 +108,12 @@ static void shortcuts_change_no_result (void **state)
         for (size_t i = 0; i < fast->nskipped; i++)
             told += strcmp (fast->skipped[i].what, "measures of the residual") == 0;
         print_message ("run %d: %zu bonds, d %.1e, v %.1e; iterations %zu, plain %zu\n", k, broken,
-                       d / size (b.state->d, n), v / size (b.state->v, n), (size_t) fast->cg_iterations,
-                       (size_t) slow->cg_iterations);
+                       d / size (b.state->d, n), v / size (b.state->v, n),
+                       (size_t) fast->linear.cg_iterations, (size_t) slow->linear.cg_iterations);
         assert_true (broken > 0 && told <= 1);
         assert_true (d <= 1e-8 * size (b.state->d, n) && v <= 1e-8 * size (b.state->v, n));
-        check_relative (fast->energy_external, slow->energy_external, 1e-8);
-        check_relative (fast->energy_strain, slow->energy_strain, 1e-8);
+        check_relative (fast->energy.external, slow->energy.external, 1e-8);
+        check_relative (fast->energy.strain, slow->energy.strain, 1e-8);
         free (l.loud), free (l.all), free (l.few), free (l.kind), free (l.same);
         clear (&a), clear (&b);
     }
@@ -130,7 +130,7 @@ static void guesses_spare_iterations (void **state)
                           "0.1 us", "6 us", "worst", plain ? "true" : "false");
         to_the_end (&r);
         const pg_statistics *report = pg_solver_report (r.solver, r.state);
-        used[plain] = (size_t) report->cg_iterations;
+        used[plain] = (size_t) report->linear.cg_iterations;
         int told = 0;
         for (size_t i = 0; i < report->nskipped; i++)
             told += strcmp (report->skipped[i].what, "measures of the residual") == 0;
@@ -206,12 +206,13 @@ static void a_factor_follows_what_breaks (void **state)
         const pg_statistics *fast = pg_solver_report (a.solver, a.state),
                             *slow = pg_solver_report (b.solver, b.state);
         print_message ("factors %ld of %ld, iterations %zu of %zu in %ld solves\n",
-                       (long) fast->factorizations, (long) slow->factorizations, (size_t) fast->cg_iterations,
-                       (size_t) slow->cg_iterations, (long) fast->solves);
-        assert_true (broken > 20 && fast->updates > 10 && !told (fast, "factors for"));
-        assert_int_equal (fast->factorizations, 1);
-        assert_true ((double) fast->cg_iterations < 2.2 * (double) fast->solves
-                     && fast->cg_iterations < slow->cg_iterations);
+                       (long) fast->linear.factorizations, (long) slow->linear.factorizations,
+                       (size_t) fast->linear.cg_iterations, (size_t) slow->linear.cg_iterations,
+                       (long) fast->linear.solves);
+        assert_true (broken > 20 && fast->linear.updates > 10 && !told (fast, "factors for"));
+        assert_int_equal (fast->linear.factorizations, 1);
+        assert_true ((double) fast->linear.cg_iterations < 2.2 * (double) fast->linear.solves
+                     && fast->linear.cg_iterations < slow->linear.cg_iterations);
         clear (&a), clear (&b);
     }
 }
@@ -226,9 +227,10 @@ static void a_factor_and_elements_take_turns (void **state)
     assert_true (side_by_side (&a, &b, 1e-8) > 20);
     const pg_statistics *fast = pg_solver_report (a.solver, a.state);
     print_message ("factors %ld, preconditioners %ld, iterations %zu in %ld solves\n",
-                   (long) fast->factorizations, (long) fast->preconditioners, (size_t) fast->cg_iterations,
-                   (long) fast->solves);
-    assert_true (fast->factorizations >= 2 && fast->preconditioners >= 1 && told (fast, "factors for") == 1);
+                   (long) fast->linear.factorizations, (long) fast->linear.preconditioners,
+                   (size_t) fast->linear.cg_iterations, (long) fast->linear.solves);
+    assert_true (fast->linear.factorizations >= 2 && fast->linear.preconditioners >= 1
+                 && told (fast, "factors for") == 1);
     const pg_statistics *slow = pg_solver_report (b.solver, b.state);
     assert_int_equal (told (slow, "factors for"), 0);
     clear (&a), clear (&b);
@@ -244,8 +246,8 @@ static void rough_rounds_break_the_same_bonds (void **state)
         b = in_space (1, "0.08", "lumped", "linear: auto", "12 MPa", "2.3");
     size_t broken = side_by_side (&a, &b, 1e-4);
     const pg_statistics *fast = pg_solver_report (a.solver, a.state);
-    print_message ("%ld rounds; iterations %zu in %ld solves\n", (long) fast->updates,
-                   (size_t) fast->cg_iterations, (long) fast->solves);
+    print_message ("%ld rounds; iterations %zu in %ld solves\n", (long) fast->linear.updates,
+                   (size_t) fast->linear.cg_iterations, (long) fast->linear.solves);
     for (size_t i = 0; i < fast->nskipped; i++) print_message ("%s\n", fast->skipped[i].what);
     assert_true (broken > 300 && told (fast, "exact equilibria") == 1);
     assert_int_equal (told (pg_solver_report (b.solver, b.state), "exact equilibria"), 0);

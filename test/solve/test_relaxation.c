@@ -40,9 +40,9 @@ static void equilibrium_under_a_load (void **state)
             for (size_t i = 0; i < the.n; i++) check_relative (l.state->d[i], 7e-4 * (double) (i + 1), 1e-8);
             for (size_t i = 0; i < the.n; i++) assert_true (l.state->v[i] == 0 && l.state->a[i] == 0);
             const pg_statistics *r = pg_solver_report_now (l.solver);
-            check_relative (r->energy_external, 0.5 * 7 * 7e-4 * 60, 1e-7);
-            check_scaled (r->energy_dissipated, 0, 1e-7, r->energy_external);
-            assert_true (r->energy_kinetic == 0 && r->residual_max <= 1e-11);
+            check_relative (r->energy.external, 0.5 * 7 * 7e-4 * 60, 1e-7);
+            check_scaled (r->energy.dissipated, 0, 1e-7, r->energy.external);
+            assert_true (r->energy.kinetic == 0 && r->residual_max <= 1e-11);
             check_below ((double) r->iterations, 1500);
             unlink_all (&l);
         }
@@ -65,8 +65,8 @@ static void equilibrium_of_a_moved_support (void **state)
             check_relative (step.reaction[0], -7 * 0.2 * k, 1e-8);
         }
         assert_true (pg_solver_done (l.solver, l.state));
-        check_relative (pg_solver_report_now (l.solver)->energy_external,
-                        pg_solver_report_now (l.solver)->energy_strain, 1e-7);
+        check_relative (pg_solver_report_now (l.solver)->energy.external,
+                        pg_solver_report_now (l.solver)->energy.strain, 1e-7);
         unlink_all (&l);
     }
 }
@@ -214,7 +214,7 @@ static void final_state (const char *kind, int hold, int threads, int stops, dou
     assert_int_equal (stopped, stops >= 0);
     memcpy (out, l.state->d, the.n * sizeof *out);
     const pg_statistics *r = pg_solver_report_now (l.solver);
-    out[the.n] = r->energy_external, out[the.n + 1] = (double) r->iterations,
+    out[the.n] = r->energy.external, out[the.n + 1] = (double) r->iterations,
     out[the.n + 2] = r->residual_max;
     unlink_all (&l);
 }

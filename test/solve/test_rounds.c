@@ -104,9 +104,9 @@ static void nothing_is_dissipated_where_nothing_breaks (void **state)
             advance (&r);
             assert_int_equal (r.step.nbroken, 0);
             most = fmax (most, fabs (r.step.dissipated));
-            kinetic = fmax (kinetic, pg_solver_report_now (r.solver)->energy_kinetic);
+            kinetic = fmax (kinetic, pg_solver_report_now (r.solver)->energy.kinetic);
         }
-        double work = pg_solver_report_now (r.solver)->energy_external;
+        double work = pg_solver_report_now (r.solver)->energy.external;
         print_message ("%s: dissipated %g of %g, in motion %g\n", ways[w], most, work, kinetic);
         assert_true (work > 0 && (w == 1 || kinetic > 0.1 * work));
         check_below (most, 1e-6 * work);

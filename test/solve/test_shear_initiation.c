@@ -94,18 +94,18 @@ static void new_cracks_follow_coulomb (void **state)
                        "to the load, length %.2f (infinite plate %.2f), dissipated %.4f of G_II, "
                        "friction %.3g\n",
                        p->degrees, p->confinement, load / line, off, length, theory,
-                       s->energy_dissipated / s->energy_fracture,
-                       s->energy_friction / s->energy_dissipated);
+                       s->energy.dissipated / s->energy.fracture,
+                       s->energy.friction / s->energy.dissipated);
         /* stresses on points that were moved differ by one or two per cent from place to place */
         check_relative (load, line, p->perturb > 0 ? 0.02 : 0.001);
         check_scaled (off, 45 - p->degrees / 2, p->perturb > 0 ? 0.005 : 1e-3, 45);
         check_relative (length, theory, 0.2);
-        check_relative (s->energy_dissipated, s->energy_fracture, 0.15);
-        check_relative (s->energy_fracture, G_II * length * p->unit * p->unit * p->unit, 1e-9);
-        assert_int_equal (s->contact_open, 0);
-        assert_true (s->contact_sliding > 0);
-        assert_true (p->friction > 0 ? s->energy_friction > 0.01 * s->energy_dissipated
-                                     : fabs (s->energy_friction) < 1e-12);
+        check_relative (s->energy.dissipated, s->energy.fracture, 0.15);
+        check_relative (s->energy.fracture, G_II * length * p->unit * p->unit * p->unit, 1e-9);
+        assert_int_equal (s->contact.open, 0);
+        assert_true (s->contact.sliding > 0);
+        assert_true (p->friction > 0 ? s->energy.friction > 0.01 * s->energy.dissipated
+                                     : fabs (s->energy.friction) < 1e-12);
         clear (&r);
     }
 }

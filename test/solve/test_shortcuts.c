@@ -38,10 +38,10 @@ static void a_small_step_factors_nothing_and_says_so (void **state)
     const pg_statistics *r = pg_solver_report (a.solver, a.state),
                         *plain = pg_solver_report (b.solver, b.state);
     print_message ("%ld bonds broken, %zu iterations in %ld solves; plain: %ld factorizations\n", r->broken,
-                   r->cg_iterations, r->solves, plain->factorizations);
+                   r->linear.cg_iterations, r->linear.solves, plain->linear.factorizations);
     assert_true (r->broken > 5);
-    assert_int_equal (r->factorizations, 0);
-    assert_true (plain->factorizations > 2);
+    assert_int_equal (r->linear.factorizations, 0);
+    assert_true (plain->linear.factorizations > 2);
     int told = 0;
     for (size_t k = 0; k < r->nskipped; k++)
         told |= strstr (r->skipped[k].what, "factorization")
@@ -59,7 +59,7 @@ static void a_large_step_factors (void **state)
            "solver: {kind: newmark, dt: 1 ms, end: 10 ms}\n");
     advance (&a);
     const pg_statistics *r = pg_solver_report (a.solver, a.state);
-    assert_true (r->factorizations >= 1);
+    assert_true (r->linear.factorizations >= 1);
     for (size_t k = 0; k < r->nskipped; k++) assert_null (strstr (r->skipped[k].what, "factorization"));
     clear (&a);
 }
@@ -82,9 +82,9 @@ static void a_kept_factor_gives_the_same_crack (void **state)
     const pg_statistics *r = pg_solver_report (a.solver, a.state),
                         *plain = pg_solver_report (b.solver, b.state);
     print_message ("%ld bonds broken, %ld factorizations, %zu iterations; plain: %ld\n", r->broken,
-                   r->factorizations, r->cg_iterations, plain->factorizations);
+                   r->linear.factorizations, r->linear.cg_iterations, plain->linear.factorizations);
     assert_true (r->broken > 5);
-    assert_true (r->factorizations < plain->factorizations);
+    assert_true (r->linear.factorizations < plain->linear.factorizations);
     assert_true (r->nskipped > 0);
     clear (&a), clear (&b);
 }
@@ -102,8 +102,8 @@ static void events_with_a_kept_factor_are_the_same (void **state)
         if (k == 0) first = a.state->factor;
     }
     assert_true (first > 0);
-    assert_true (pg_solver_report (a.solver, a.state)->factorizations
-                 < pg_solver_report (b.solver, b.state)->factorizations);
+    assert_true (pg_solver_report (a.solver, a.state)->linear.factorizations
+                 < pg_solver_report (b.solver, b.state)->linear.factorizations);
     clear (&a), clear (&b);
 }
 
@@ -156,7 +156,7 @@ static void damping_is_in_the_matrix (void **state)
                       "{y: 1 MPa}}\nsolver: {kind: newmark, linear: cholmod, dt: 1 us, end: 20 us%s}\n",
                       damped ? ", rayleigh: {stiffness: 2 us}" : "");
         to_the_end (&r);
-        solves[damped] = (size_t) pg_solver_report_now (r.solver)->solves;
+        solves[damped] = (size_t) pg_solver_report_now (r.solver)->linear.solves;
         clear (&r);
     }
     print_message ("solves: %zu, damped %zu\n", solves[0], solves[1]);
@@ -198,12 +198,12 @@ static void explicit_runs_are_those_of_the_plain_path (void **state)
                 advance (&a), advance (&b);
                 const pg_statistics *r = pg_solver_report_now (a.solver),
                                     *plain = pg_solver_report_now (b.solver);
-                double top = largest_of (b.state->d, b.state->ndof), all = fabs (plain->energy_external);
+                double top = largest_of (b.state->d, b.state->ndof), all = fabs (plain->energy.external);
                 assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
                 assert_true (largest_difference (a.state->d, b.state->d, a.state->ndof) <= 1e-11 * top);
-                check_scaled (r->energy_strain, plain->energy_strain, 1e-10, all);
-                check_scaled (r->energy_kinetic, plain->energy_kinetic, 1e-10, all);
-                check_scaled (r->energy_external, plain->energy_external, 1e-10, all);
+                check_scaled (r->energy.strain, plain->energy.strain, 1e-10, all);
+                check_scaled (r->energy.kinetic, plain->energy.kinetic, 1e-10, all);
+                check_scaled (r->energy.external, plain->energy.external, 1e-10, all);
                 check_scaled (a.step.reaction[4], b.step.reaction[4], 1e-8, b.step.reaction[4]);
                 broken = a.state->broken;
             }
@@ -267,7 +267,7 @@ static void one_factor_needs_no_matrix_beside_it (void **state)
         int told = 0;
         for (size_t i = 0; i < r->nskipped; i++) told |= strstr (r->skipped[i].what, "memory for K") != NULL;
         print_message ("%s: %zu bytes after the first step, plain %zu\n", methods[k], held[0], held[1]);
-        assert_true (told && r->factorizations == 1);
+        assert_true (told && r->linear.factorizations == 1);
         assert_true (held[0] < 0.8 * held[1]);
         clear (&a), clear (&b);
     }

@@ -178,16 +178,16 @@ static void confinement_and_a_ramp_is_an_affine_run (void **state)
         advance (&a), advance (&b), advance (&b);
         assert_true (a.state->factor == 0 && b.state->factor == 1 && b.step.nbroken == 0);
         assert_int_equal (b.step.stage, 1);
-        check_relative (pg_solver_report_now (b.solver)->energy_external,
-                        pg_solver_report_now (a.solver)->energy_external, 1e-9);
+        check_relative (pg_solver_report_now (b.solver)->energy.external,
+                        pg_solver_report_now (a.solver)->energy.external, 1e-9);
         while (!pg_solver_done (a.solver, a.state)) {
             advance (&a), advance (&b);
             check_relative (b.state->factor - 1, a.state->factor, 1e-9);
             assert_true (a.step.nbroken == b.step.nbroken && a.step.nbroken > 0 && b.step.stage == 2);
             for (size_t k = 0; k < a.step.nbroken; k++)
                 assert_int_equal (a.step.broken[k].bond, b.step.broken[k].bond);
-            double other = pg_solver_report_now (a.solver)->energy_external;
-            check_relative (pg_solver_report_now (b.solver)->energy_external, other, 1e-8);
+            double other = pg_solver_report_now (a.solver)->energy.external;
+            check_relative (pg_solver_report_now (b.solver)->energy.external, other, 1e-8);
             check_scaled (b.step.dissipated, a.step.dissipated, 1e-8, other);
         }
         clear (&a), clear (&b);
@@ -212,7 +212,7 @@ static void unloading_returns_to_the_origin (void **state)
         while (!record[0].done) {
             advance (&r);
             most = fmax (most, largest_of (r.state->d, r.state->ndof));
-            stored = fmax (stored, pg_solver_report_now (r.solver)->energy_strain);
+            stored = fmax (stored, pg_solver_report_now (r.solver)->energy.strain);
         }
         assert_true (record[0].events >= 3 && r.state->events == record[0].events);
         assert_string_equal (record[0].why, "events");
@@ -383,8 +383,9 @@ static void excavation_ends_where_a_body_with_the_hole_is (void **state)
                     const pg_force_type *force = pg_solver_force (a.solver, &self);
                     for (int end = 0; end < 2; end++)
                         check_ok (force->sample (self, a.state, a.state->d, 1,
-                                                 end ? a.problem->gauge->to : a.problem->gauge->from, u[end],
-                                                 NULL, NULL));
+                                                 end ? a.problem->boundary.gauge->to
+                                                     : a.problem->boundary.gauge->from,
+                                                 u[end], NULL, NULL));
                     half = u[1][1] - u[0][1];
                 }
             }
@@ -398,10 +399,10 @@ static void excavation_ends_where_a_body_with_the_hole_is (void **state)
             check_scaled (one[1].strain, other[1].strain, 1e-7, other[1].strain);
             /* the rest of the loads' work was stored in the hole, or given back by its edge: positive */
             assert_true (one[1].dissipated > 0 && fabs (other[1].dissipated) < 1e-8 * other[1].strain);
-            assert_true (a.state->broken == 0 && pg_solver_report_now (a.solver)->energy_dissipated > 0);
+            assert_true (a.state->broken == 0 && pg_solver_report_now (a.solver)->energy.dissipated > 0);
             int components;
             double *stress = field_of (&a, NULL, "stress", &components);
-            const pg_set *tunnel = a.problem->stage[1].remove;
+            const pg_set *tunnel = a.problem->boundary.stage[1].remove;
             for (size_t i = 0; i < tunnel->npoint; i++)
                 for (int c = 0; c < components; c++)
                     assert_true (stress[(size_t) tunnel->point[i] * (size_t) components + (size_t) c] == 0);

@@ -115,12 +115,12 @@ static void external_work_is_strain_energy (void **state)
                 while (!pg_solver_done (r.solver, r.state)) {
                     advance (&r);
                     const pg_statistics *report = pg_solver_report_now (r.solver);
-                    assert_true (report->energy_external > 0);
-                    check_relative (report->energy_strain, report->energy_external, 1e-8);
-                    check_scaled (report->energy_dissipated, 0, 1e-8, report->energy_external);
-                    check_scaled (r.step.dissipated, 0, 1e-8, report->energy_external);
+                    assert_true (report->energy.external > 0);
+                    check_relative (report->energy.strain, report->energy.external, 1e-8);
+                    check_scaled (report->energy.dissipated, 0, 1e-8, report->energy.external);
+                    check_scaled (r.step.dissipated, 0, 1e-8, report->energy.external);
                 }
-                check_relative (r.state->work, pg_solver_report_now (r.solver)->energy_external, 1e-15);
+                check_relative (r.state->work, pg_solver_report_now (r.solver)->energy.external, 1e-15);
                 clear (&r);
             }
 }
@@ -137,7 +137,7 @@ static void events_and_fixed_steps_reach_the_same_place (void **state)
                  1e-9 * largest_of (b.state->d, b.state->ndof));
     for (int k = 0; k < 6; k++) check_scaled (a.step.reaction[k], b.step.reaction[k], 1e-9, 1e5);
     /* one solve, refined, for all levels */
-    check_below ((double) pg_solver_report_now (a.solver)->solves, 13);
+    check_below ((double) pg_solver_report_now (a.solver)->linear.solves, 13);
     clear (&a), clear (&b);
 }
 
@@ -203,7 +203,7 @@ static void a_soft_nitsche_support_falls_back_on_umfpack (void **state)
         told |= strstr (report->warning[k], "not positive definite")
                 && strstr (report->warning[k], "nitsche_factor");
     assert_true (told);
-    assert_string_equal (report->solver, "umfpack");
+    assert_string_equal (report->linear.solver, "umfpack");
     check_below (report->residual_max, 1e-8);
     check_relative (r.step.reaction[0], -1e5, 1e-9);
     clear (&r);

@@ -18,12 +18,12 @@ static void cut_line (const run *r, double *ends, unsigned char *listed, pg_chan
     pg_crack line = { .kind = PG_CRACK_SEGMENT, .vertex = ends, .nvertex = 2 };
     pg_crack_orient (&line);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++)
-            for (size_t e = p->rows[s].family.start[q]; e < p->rows[s].family.start[q + 1]; e++) {
-                size_t bond = p->first_bond[s] + e;
-                int j = p->rows[s].family.node[e];
-                const double *a = p->rows[s].x + 2*q, *b = p->cloud.x + 2 * (size_t) j;
-                if (!r->state->alive[bond] || listed[bond] || j == p->rows[s].own[q]
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++)
+            for (size_t e = p->bonds.rows[s].family.start[q]; e < p->bonds.rows[s].family.start[q + 1]; e++) {
+                size_t bond = p->bonds.first[s] + e;
+                int j = p->bonds.rows[s].family.node[e];
+                const double *a = p->bonds.rows[s].x + 2*q, *b = p->cloud.x + 2 * (size_t) j;
+                if (!r->state->alive[bond] || listed[bond] || j == p->bonds.rows[s].own[q]
                     || !pg_crack_cuts (&line, 2, a, b, 1e-12))
                     continue;
                 listed[bond] = 1;
@@ -77,7 +77,7 @@ static void columns_are_as_good_as_solving_anew (void **state)
         advance (&r);
         stages s = stages_of (&r);
         const double *d[1] = { r.state->d }, t[1] = { r.state->factor };
-        double stored = pg_solver_report_now (r.solver)->energy_strain;
+        double stored = pg_solver_report_now (r.solver)->energy.strain;
         double quick[3 * STAGES], anew[3 * STAGES], again[3 * STAGES];
         check_ok (pg_solver_release (r.solver, r.state, 1, d, t, STAGES, s.cut, 0, quick));
         check_ok (pg_solver_release (r.solver, r.state, 1, d, t, STAGES, s.cut, 1, anew));

@@ -29,29 +29,29 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
         printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld "
                 "solves\n  largest residual %.2e, largest utilisation "
                 "of an accepted state %.6f",
-                r->steps, r->events, r->iterations, r->broken, r->factorizations, r->solves, r->residual_max,
-                r->utilisation_max);
+                r->steps, r->events, r->iterations, r->broken, r->linear.factorizations, r->linear.solves,
+                r->residual_max, r->utilisation_max);
     printf (", %zu degenerate points, %zu fragments\n", r->degenerate_points, r->fragments);
-    if (r->cg_iterations && !(o->flags & PG_SOLVER_EXPLICIT) && !(o->flags & PG_SOLVER_STAGED))
-        printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations,
-                *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
-                r->preconditioners > 1 ? ", rebuilt as bonds broke" : "");
+    if (r->linear.cg_iterations && !(o->flags & PG_SOLVER_EXPLICIT) && !(o->flags & PG_SOLVER_STAGED))
+        printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->linear.cg_iterations,
+                *r->linear.preconditioner ? ", preconditioner " : "", r->linear.preconditioner,
+                r->linear.preconditioners > 1 ? ", rebuilt as bonds broke" : "");
     if ((o->flags & PG_SOLVER_EXPLICIT))
         printf (
             "  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n",
-            r->energy_external, r->energy_strain, r->energy_kinetic, r->energy_damping, r->energy_dissipated);
+            r->energy.external, r->energy.strain, r->energy.kinetic, r->energy.damping, r->energy.dissipated);
 }
 
 /* Where growth went on by itself, and what the run made of it. */
 static void print_instabilities (const pg_statistics *r, const pg_solver_options *o)
 {
     if (o->on_instability == PG_UNSTABLE_HOLD)
-        printf ("  growth went on by itself %ld times: %ld of %ld events at a held load\n", r->instabilities,
-                r->unstable_steps, r->events);
+        printf ("  growth went on by itself %ld times: %ld of %ld events at a held load\n", r->unstable.count,
+                r->unstable.steps, r->events);
     if (o->on_instability == PG_UNSTABLE_DYNAMIC)
         printf ("  growth went on by itself %ld times, in motion: %ld time steps, %.4g s, %.4g J damped; "
                 "reactions jump by at most %.1e where motion begins and ends\n",
-                r->instabilities, r->unstable_steps, r->motion_time, r->energy_damping, r->switch_jump);
+                r->unstable.count, r->unstable.steps, r->unstable.time, r->energy.damping, r->unstable.jump);
 }
 
 /* The last lines of a run: work, peak and crack, estimated error, times, reference, what was
@@ -59,7 +59,7 @@ static void print_instabilities (const pg_statistics *r, const pg_solver_options
 static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o,
                            const pg_problem *problem, const pg_statistics *early, double total)
 {
-    int nodal = problem->integration->at_nodes;
+    int nodal = problem->form.integration->at_nodes;
     print_counts (r, o);
     print_instabilities (r, o);
     char row[400];
@@ -90,7 +90,7 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
                 problem->material[m].name, s.asked, s.in_use);
     }
     plan_warnings (r, early);
-    if (pg_rank_count () > 1 && !pg_ranks_now () && !r->factorizations)
+    if (pg_rank_count () > 1 && !pg_ranks_now () && !r->linear.factorizations)
         printf ("  warning: no matrix was factored: all %d ranks did the same work, one would do; "
                 "solver.linear: petsc factors on all of them\n", pg_rank_count ());
     printf ("  results in %s: %s history.csv events.csv%s report.json\n", pg_result_folder (result),

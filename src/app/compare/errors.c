@@ -18,7 +18,7 @@ static pg_status over_points (pg_norms *out, const pg_problem *p, const pg_expre
     pg_quadrature q = { .n = p->cloud.n, .x = p->cloud.x, .weight = p->cloud.volume };
     int *which = NULL;
     PG_TRY (pg_compare_materials (p, &q, &which));
-    pg_norm_options options = { p->law, which, where };
+    pg_norm_options options = { p->at.law, which, where };
     PG_TRY (pg_norms_measure (out, &q, value, reference, &options));
 done:
     pg_free (which);

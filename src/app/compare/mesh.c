@@ -45,8 +45,8 @@ static void free_fem (void *context)
 static const pg_material *law_at (const fem *f, const double *x)
 {
     const pg_problem *p = f->problem;
-    if (!f->material) return &p->law[0];
-    return pg_problem_law (p, p->integration->at_nodes ? PG_NODES : PG_POINTS,
+    if (!f->material) return &p->at.law[0];
+    return pg_problem_law (p, p->form.integration->at_nodes ? PG_NODES : PG_POINTS,
                            (size_t) pg_nearest_find (f->material, x, NULL, NULL));
 }
 
@@ -114,14 +114,15 @@ pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double u
 {
     pg_status status = PG_OK;
     fem *f = NULL;
-    int bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
+    int bulk = problem->form.integration->at_nodes ? PG_NODES : PG_POINTS;
     memset (out, 0, sizeof *out);
     PG_ALLOC (f, 1);
     f->problem = problem;
     PG_TRY (read_fields (f, path, step, unit));
     PG_TRY (pg_mesh_locator_create (&f->locator, &f->mesh));
-    if (problem->nlaw > 1)
-        PG_TRY (pg_nearest_create (&f->material, problem->dim, problem->rows[bulk].n, problem->rows[bulk].x));
+    if (problem->at.nlaw > 1)
+        PG_TRY (pg_nearest_create (&f->material, problem->dim, problem->bonds.rows[bulk].n,
+                                   problem->bonds.rows[bulk].x));
     *out = (pg_sampler){ f,
                          problem->dim,
                          (1 << problem->dim) - 1,

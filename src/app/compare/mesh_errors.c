@@ -52,7 +52,7 @@ pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const p
     PG_TRY (pg_reference_sampler (&field, reference, t));
     PG_TRY (pg_mesh_quadrature (&q, pg_sampler_mesh_of (&value, NULL, NULL), problem->cloud.thickness, 5));
     PG_TRY (pg_compare_materials (problem, &q, &which));
-    pg_norm_options options = { problem->law, which, reference->where };
+    pg_norm_options options = { problem->at.law, which, reference->where };
     PG_TRY (pg_norms_measure (&out->norms, &q, &value, &field, &options));
     out->order = 5, out->seconds = pg_seconds () - start;
 done:

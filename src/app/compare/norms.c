@@ -228,17 +228,17 @@ done:
 /* The material of every place is that of the nearest evaluation point. */
 static void find_materials (const pg_problem *p, const pg_nearest *near, const pg_quadrature *q, int *which)
 {
-    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    int bulk = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
     for (size_t i = 0; i < q->n; i++)
-        which[i] = p->law_of[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
+        which[i] = p->at.law_of[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
 }
 
 /* A search for the material at a place; NULL where there is one material only. */
 static pg_status search_materials (pg_nearest **out, const pg_problem *p)
 {
-    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
-    if (p->nlaw < 2) return PG_OK;
-    return pg_nearest_create (out, p->dim, p->rows[bulk].n, p->rows[bulk].x);
+    int bulk = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
+    if (p->at.nlaw < 2) return PG_OK;
+    return pg_nearest_create (out, p->dim, p->bonds.rows[bulk].n, p->bonds.rows[bulk].x);
 }
 
 /* Cells in parts: the places of a large body would take more memory than anything else. */
@@ -246,7 +246,7 @@ pg_status pg_norms_of_cells (pg_norms *out, const pg_problem *p, int order, cons
                              const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;
-    pg_norm_options options = { p->law, NULL, where };
+    pg_norm_options options = { p->at.law, NULL, where };
     measuring m = { .options = &options, .out = out };
     pg_nearest *near = NULL;
     pg_quadrature q = { 0 };
@@ -254,7 +254,7 @@ pg_status pg_norms_of_cells (pg_norms *out, const pg_problem *p, int order, cons
     size_t few = PLACES, part = p->cells.n / PARTS + 1;
     for (int k = 0; k < p->dim; k++) few /= (size_t) order;
     part = part > few ? part : few + 1;
-    PG_TRY (prepare (&m, p->nlaw < 2 ? 1 : p->nlaw, value, reference));
+    PG_TRY (prepare (&m, p->at.nlaw < 2 ? 1 : p->at.nlaw, value, reference));
     PG_TRY (search_materials (&near, p));
     for (size_t first = 0; first < p->cells.n; first += part) {
         size_t last = first + part < p->cells.n ? first + part : p->cells.n;

@@ -107,7 +107,7 @@ int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 {
     int own = pg_scene_given (scene, "method.gauss_points")
                   ? (int) pg_scene_integer (scene, "method.gauss_points")
-                  : problem->approx.order + 1;
+                  : problem->form.approx.order + 1;
     return own + 2 > 5 ? 5 : own + 2;
 }
 

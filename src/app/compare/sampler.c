@@ -179,7 +179,7 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
     size_t ndof = problem->cloud.n * (size_t) problem->dim;
     memset (out, 0, sizeof *out);
     PG_ALLOC (s, 1);
-    s->problem = problem, s->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
+    s->problem = problem, s->bulk = problem->form.integration->at_nodes ? PG_NODES : PG_POINTS;
     s->approx = (pg_approx){ .type = &pg_approx_rkpm,
                              .kernel = &pg_kernel_cubic_spline,
                              .order = 1,
@@ -191,8 +191,8 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
         PG_ALLOC (s->torn, problem->cloud.n);
         memcpy (s->torn, torn, problem->cloud.n);
     }
-    PG_TRY (
-        pg_nearest_create (&s->material, problem->dim, problem->rows[s->bulk].n, problem->rows[s->bulk].x));
+    PG_TRY (pg_nearest_create (&s->material, problem->dim, problem->bonds.rows[s->bulk].n,
+                               problem->bonds.rows[s->bulk].x));
     *out = (pg_sampler){
         s, problem->dim, (1 << problem->dim) - 1, stress_bits (problem->dim), sample_points, free_points
     };

@@ -231,11 +231,11 @@ void forecast_factor (pg_forecast *f)
  * inverse and a dense product each. */
 static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned char *role)
 {
-    const pg_family *fam = &p->rows[PG_NODES].family;
+    const pg_family *fam = &p->bonds.rows[PG_NODES].family;
     double slaves = 0, masters = 0;
     memset (role, 0, p->cloud.n);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION)
             continue;
         for (size_t i = 0; i < load->set->npoint; i++) role[load->set->point[i]] = 1;
@@ -246,7 +246,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
             if (!role[fam->node[e]]) role[fam->node[e]] = 2;
     }
     for (size_t i = 0; i < p->cloud.n; i++) masters += role[i] == 2;
-    if (p->approx.type->interpolates) masters = 0;
+    if (p->form.approx.type->interpolates) masters = 0;
     f->slaves += slaves;
     f->eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
 }
@@ -255,7 +255,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
-    return p->sums->stencil.n == 0 || ((p->nlaw > 1 || p->nlimit > 1) && (!rule->state || rule->beams))
+    return p->sums->stencil.n == 0 || ((p->at.nlaw > 1 || p->at.nlimit > 1) && (!rule->state || rule->beams))
            || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
@@ -264,8 +264,8 @@ static int summed_by_list (const pg_problem *p)
 static double contact_columns (const pg_forecast *f, const pg_problem *p)
 {
     double pieces = 0;
-    for (size_t i = 0; f->pressed && i < p->cracks.n; i++)
-        pieces += pg_crack_size (&p->cracks.crack[i], p->dim) / pow (2 * p->cloud.h, p->dim - 1);
+    for (size_t i = 0; f->pressed && i < p->crack.given.n; i++)
+        pieces += pg_crack_size (&p->crack.given.crack[i], p->dim) / pow (2 * p->cloud.h, p->dim - 1);
     return pieces * (p->dim == 3 && f->pressed == 1 ? 1 : p->dim);
 }
 
@@ -280,17 +280,18 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->slaves = f->eliminated = 0;
     for (int k = 0; k < p->dim; k++) count_slaves (f, p, k, role);
     f->points = (double) p->cloud.n, f->cells = (double) p->cells.n;
-    f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
-    for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
+    f->evaluation = (double) p->bonds.rows[PG_POINTS].n, f->facets = (double) p->bonds.rows[PG_FACETS].n;
+    for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->bonds.first[s + 1] - p->bonds.first[s]);
     f->pairs = !p->method->shape_functions ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
     f->matrixless = p->sums && p->sums->rule.state;
     f->method = p->method, f->listed = p->sums && p->sums->stencil.n == 0,
     f->by_list = p->sums && summed_by_list (p), f->rotations = pg_problem_rotations (p);
-    f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n]
-                                           + p->consistency->face.family.start[p->consistency->face.n])
-                               : 0;
-    f->patched = p->patches ? (double) p->patches->family.start[p->patches->n] : 0;
-    f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
+    f->summed = p->form.consistency
+                    ? (double) (p->form.consistency->family.start[p->form.consistency->family.n]
+                                + p->form.consistency->face.family.start[p->form.consistency->face.n])
+                    : 0;
+    f->patched = p->form.patches ? (double) p->form.patches->family.start[p->form.patches->n] : 0;
+    f->horizon = p->form.approx.horizon, f->spacing = p->cloud.h;
     f->columns = contact_columns (f, p);
     f->behind = pg_solve_count (p).behind, f->scattered = pg_solve_count (p).scattered;
     /* from event to event by a factor that is kept: bonds one by one without contact (event_stepping.c) */

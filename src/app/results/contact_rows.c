@@ -25,7 +25,7 @@ pg_status pg_result_contact_create (pg_result *r, const result_marks *from)
     const pg_contact_setting *setting = &pg_solver_settled (r->solver)->contact;
     int explicit_ = (pg_solver_settled (r->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
         faces = setting->kind != PG_CONTACT_NONE && setting->search == PG_CONTACT_FACES;
-    if (!faces && (explicit_ || !r->problem->nplaten)) return PG_OK;
+    if (!faces && (explicit_ || !r->problem->boundary.nplaten)) return PG_OK;
     snprintf (path, sizeof path, "%s/contact.csv", r->folder);
     int space = r->problem->dim == 3;
     size_t count = space ? COLUMNS_SPACE : COLUMNS;

@@ -25,17 +25,17 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
                        const unsigned char *now)
 {
     static const double mean[] = { 0, 1, 0.63661977236758134, 0.5 };
-    const pg_family *f = &p->rows[set].family;
+    const pg_family *f = &p->bonds.rows[set].family;
     size_t dim = (size_t) p->dim, broken = 0;
     double sum = 0;
     for (size_t b = f->start[i]; b < f->start[i + 1]; b++) {
         double square = 0;
         for (size_t k = 0; k < dim; k++) {
-            double xi = p->cloud.x[(size_t) f->node[b] * dim + k] - p->rows[set].x[i * dim + k];
+            double xi = p->cloud.x[(size_t) f->node[b] * dim + k] - p->bonds.rows[set].x[i * dim + k];
             square += xi * xi;
         }
         sum += sqrt (square);
-        broken += before[b - f->start[i]] && !now[p->first_bond[set] + b];
+        broken += before[b - f->start[i]] && !now[p->bonds.first[set] + b];
     }
     return sum > 0 ? volume * (double) broken / (mean[dim] * sum) : 0;
 }
@@ -44,10 +44,10 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
 static double area_of_point (const pg_problem *p, size_t i, const unsigned char *before,
                              const unsigned char *now)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     size_t first = f->start[i], n = f->start[i + 1] - first;
-    if (!memchr (before, 1, n) || memchr (now + p->first_bond[PG_NODES] + first, 1, n)) return 0;
-    return p->cloud.volume[i] / (p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
+    if (!memchr (before, 1, n) || memchr (now + p->bonds.first[PG_NODES] + first, 1, n)) return 0;
+    return p->cloud.volume[i] / (p->form.approx.horizon * pg_cloud_ratio (&p->cloud, i));
 }
 
 /* Uses the bonds of evaluation points where there are some, else those of the points
@@ -59,7 +59,7 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     unsigned char *start = NULL;
     size_t widest = 0;
     int points = p->criterion->type && (p->criterion->type->needs & PG_NEEDS_ENERGY),
-        set = p->rows[PG_POINTS].n && !points ? PG_POINTS : PG_NODES;
+        set = p->bonds.rows[PG_POINTS].n && !points ? PG_POINTS : PG_NODES;
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
     if (pg_problem_removes (p)) return PG_OK;              /* bonds of what was removed are no crack */
@@ -67,33 +67,34 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
         r->crack.length = state->paths->length, r->crack.area = r->crack.length * p->cloud.thickness;
         r->crack.found = r->crack.area > 0;
         if (r->crack.found)
-            r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
+            r->crack.dissipated = pg_solver_report_now (r->solver)->energy.dissipated / r->crack.area;
         return PG_OK;
     }
     if (r->tips.grows && state->surfaces) {
         r->crack.area = state->surfaces->area, r->crack.found = r->crack.area > 0;
         if (r->crack.found)
-            r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
+            r->crack.dissipated = pg_solver_report_now (r->solver)->energy.dissipated / r->crack.area;
         return PG_OK;
     }
     if (!p->criterion->type || (state->broken == 0 && !pg_ranks_now ())) return PG_OK;
-    const size_t *first = p->rows[set].family.start;
-    for (size_t i = 0; i < p->rows[set].n; i++)
+    const size_t *first = p->bonds.rows[set].family.start;
+    for (size_t i = 0; i < p->bonds.rows[set].n; i++)
         widest = first[i + 1] - first[i] > widest ? first[i + 1] - first[i] : widest;
     PG_ALLOC (start, widest + 1);
-    for (size_t i = 0; i < p->rows[set].n; i++) {
+    for (size_t i = 0; i < p->bonds.rows[set].n; i++) {
         if (set == PG_NODES && !pg_cloud_owns (&p->cloud, i)) continue;
-        if (!memchr (state->alive + p->first_bond[set] + first[i], 0, first[i + 1] - first[i])) continue;
+        if (!memchr (state->alive + p->bonds.first[set] + first[i], 0, first[i + 1] - first[i])) continue;
         pg_bonds_cut_at (p, set, i, start);
         if (points) area += area_of_point (p, i, start, state->alive);
-        else area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->rows[set].weight[i], start,
-                         state->alive);
+        else
+            area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->bonds.rows[set].weight[i],
+                             start, state->alive);
     }
     PG_TRY (pg_ranks_sum (1, &area));
     r->crack.found = area > 0;
     r->crack.area = area;
     if (p->dim == 2) r->crack.length = area / p->cloud.thickness;
-    if (area > 0) r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / area;
+    if (area > 0) r->crack.dissipated = pg_solver_report_now (r->solver)->energy.dissipated / area;
 done:
     pg_free (start);
     return status;

@@ -106,8 +106,8 @@ pg_status pg_result_tips_read (pg_result *r, const pg_scene *scene)
     t->broken = -1;
     PG_ALLOC (t->tip, t->ntip);
     for (size_t i = 0; i < t->ntip; i++) PG_TRY (read_tip (&t->tip[i], scene, i, r->problem));
-    for (size_t m = 0; t->ntip && m < r->problem->nlaw; m++)
-        t->rayleigh = fmax (t->rayleigh, pg_material_waves (&r->problem->law[m]).rayleigh);
+    for (size_t m = 0; t->ntip && m < r->problem->at.nlaw; m++)
+        t->rayleigh = fmax (t->rayleigh, pg_material_waves (&r->problem->at.law[m]).rayleigh);
     PG_TRY (pg_ranks_most (1, &t->rayleigh));
 done:
     return status;
@@ -163,7 +163,7 @@ static void spread (const result_tip *tip, const pg_problem *p, const double *da
                     size_t *at, double *seen)
 {
     const double REACH = 1.9;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     for (; *at < *n; (*at)++) {
         size_t i = (size_t) queue[*at];
         double reach = REACH * pg_problem_spacing (p, PG_NODES, i);
@@ -330,7 +330,7 @@ void pg_result_tips_run (const pg_result *r, size_t i, result_tip_run *out, doub
     for (stop = n - 1; stop > start && !(tip->length[stop] > tip->length[stop - 1]); ) stop--;
     out->start = start, out->stop = stop, out->moved = start < n;
     if (!r->dynamic || !out->moved) return;
-    double half = rayleigh > 0 ? 2 * r->problem->approx.horizon / rayleigh : 0;
+    double half = rayleigh > 0 ? 2 * r->problem->form.approx.horizon / rayleigh : 0;
     for (size_t k = out->first; k < n; k++) {
         double v = slope (tip, time, out->first, n, k, half);
         if (v > out->largest) out->largest = v, out->fastest = k;

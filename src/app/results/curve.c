@@ -43,7 +43,7 @@ static double farthest (const pg_problem *p, const pg_load *load, int k)
 {
     double size = 0;
     for (size_t i = 0; i < load->set->npoint; i++)
-        for (size_t stage = 0; stage == 0 || stage < p->nstage; stage++) {
+        for (size_t stage = 0; stage == 0 || stage < p->boundary.nstage; stage++) {
             double end = load->kind == PG_VELOCITY ? 1e-9 : (double) (stage + 1);
             const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
             size = fmax (size, fabs (pg_load_value (load, k, p->dim, x, end)));
@@ -56,7 +56,7 @@ static double farthest_platen (const pg_problem *p, const pg_load *load, int k)
 {
     static const double anywhere[3] = { 0 };
     double size = 0;
-    for (size_t stage = 0; stage == 0 || stage < p->nstage; stage++)
+    for (size_t stage = 0; stage == 0 || stage < p->boundary.nstage; stage++)
         size = fmax (size, fabs (pg_load_value (load, k, p->dim, anywhere, (double) (stage + 1))));
     return size;
 }
@@ -67,7 +67,7 @@ static size_t begins (const pg_problem *p, const pg_load *load)
     size_t stage = 1;
     if (!pg_load_separates (load)) return stage;
     if (pg_load_factor (load, 0) != 0) return 0;
-    while (stage < p->nstage && pg_load_factor (load, (double) stage) == 0) stage++;
+    while (stage < p->boundary.nstage && pg_load_factor (load, (double) stage) == 0) stage++;
     return stage;
 }
 
@@ -86,21 +86,21 @@ void pg_result_curve_choose (pg_result *r)
     const pg_problem *p = r->problem;
     double most = 0;
     c->load = -1;
-    for (size_t l = 0; l < p->nload; l++)
+    for (size_t l = 0; l < p->boundary.nload; l++)
         for (int k = 0; k < p->dim; k++) {
-            const pg_load *load = &p->load[l];
+            const pg_load *load = &p->boundary.load[l];
             int platen = load->kind == PG_PLATEN_MOTION;
             if (!platen && !moves (load)) continue;
             double size = platen ? farthest_platen (p, load, k) : farthest (p, load, k);
             if (size > most) most = size, c->load = (int) l, c->component = k;
         }
     size_t last = 0;
-    for (size_t l = 0, none = c->load < 0; none && l < p->nload; l++) {
+    for (size_t l = 0, none = c->load < 0; none && l < p->boundary.nload; l++) {
         double strongest = 0;
-        size_t first = begins (p, &p->load[l]);
+        size_t first = begins (p, &p->boundary.load[l]);
         if (c->load >= 0 && first <= last) continue;
         for (int k = 0; k < p->dim; k++) {
-            double push = push_along (p, &p->load[l], k);
+            double push = push_along (p, &p->boundary.load[l], k);
             if (!(push > strongest)) continue;
             strongest = push, last = first, c->load = (int) l, c->component = k;
         }
@@ -114,7 +114,7 @@ pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *g
 {
     result_curve *c = &r->curve;
     pg_status status = PG_OK;
-    size_t width = FIRST_GAUGE + r->problem->ngauge, i = c->npoint;
+    size_t width = FIRST_GAUGE + r->problem->boundary.ngauge, i = c->npoint;
     PG_GROW (c->x, c->cap_x, i + 1);
     PG_GROW (c->y, c->cap_y, i + 1);
     PG_GROW (c->more, c->cap_more, (i + 1) * width);
@@ -122,7 +122,7 @@ pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *g
     c->x[i] = x, c->y[i] = y;
     more[STEP] = (double) step->number, more[TIME] = step->time, more[FACTOR] = step->factor;
     more[UNJUDGED] = (double) step->unjudged;
-    for (size_t g = 0; g < r->problem->ngauge; g++) more[FIRST_GAUGE + g] = gauges[g];
+    for (size_t g = 0; g < r->problem->boundary.ngauge; g++) more[FIRST_GAUGE + g] = gauges[g];
     c->npoint++;
 done:
     return status;
@@ -133,7 +133,7 @@ pg_status pg_result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     result_curve *c = &r->curve;
     pg_status status = PG_OK;
-    size_t width = FIRST_GAUGE + r->problem->ngauge;
+    size_t width = FIRST_GAUGE + r->problem->boundary.ngauge;
     PG_GROW (c->x, c->cap_x, n);
     PG_GROW (c->y, c->cap_y, n);
     PG_GROW (c->more, c->cap_more, n * width);
@@ -151,11 +151,14 @@ done:
 static int from_rest (const pg_problem *p)
 {
     double moves = 0;
-    for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; p->load[l].kind != PG_VELOCITY && k < pg_load_components (&p->load[l], p->dim); k++)
-            for (size_t i = 0; i < p->load[l].set->npoint; i++)
-                if (pg_load_value (&p->load[l], k, p->dim,
-                                   p->cloud.x + (size_t) p->load[l].set->point[i] * (size_t) p->dim, 0)
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        for (int k = 0;
+             p->boundary.load[l].kind != PG_VELOCITY && k < pg_load_components (&p->boundary.load[l], p->dim);
+             k++)
+            for (size_t i = 0; i < p->boundary.load[l].set->npoint; i++)
+                if (pg_load_value (&p->boundary.load[l], k, p->dim,
+                                   p->cloud.x + (size_t) p->boundary.load[l].set->point[i] * (size_t) p->dim,
+                                   0)
                     != 0)
                     moves = 1;
     return !(most_of_all (p, moves) > 0);
@@ -222,7 +225,7 @@ static int is_conjugate (const pg_problem *p, const pg_load *load, int k)
 
 static const double *more_of (const pg_result *r, size_t row)
 {
-    return r->curve.more + row * (FIRST_GAUGE + r->problem->ngauge);
+    return r->curve.more + row * (FIRST_GAUGE + r->problem->boundary.ngauge);
 }
 
 /* The peak is the row of largest |force| of all rows in which every tip of a crack was judged; of all rows
@@ -244,7 +247,7 @@ void pg_result_curve_read (pg_result *r)
                              .step = more[STEP], .time = more[TIME], .factor = more[FACTOR], .initial = NAN,
                              .secant = NAN, .judged = judged > 0, .left_out = judged ? n - judged : 0 };
     if (!from_rest (r->problem)) return;
-    if (!is_conjugate (r->problem, &r->problem->load[c->load], c->component)) return;
+    if (!is_conjugate (r->problem, &r->problem->boundary.load[c->load], c->component)) return;
     c->peak.initial = initial_stiffness (r, row);
     if (c->peak.displacement != 0) c->peak.secant = c->peak.force / c->peak.displacement;
 }
@@ -257,9 +260,9 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     const result_peak *k = &c->peak;
     const pg_problem *p = r->problem;
     if (!k->found) return;
-    const double *gauge = c->more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
+    const double *gauge = c->more + k->row * (FIRST_GAUGE + p->boundary.ngauge) + FIRST_GAUGE;
     pg_json_open (j, "curve", '{');
-    pg_json_text (j, "load", p->load[c->load].name);
+    pg_json_text (j, "load", p->boundary.load[c->load].name);
     pg_json_text (j, "component", (const char[2]) { "xyz"[c->component], 0 });
     pg_json_open (j, "peak", '{');
     pg_json_number (j, "force", k->force);
@@ -267,7 +270,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     pg_json_count (j, "step", (size_t) k->step);
     pg_json_number (j, r->dynamic ? "time" : "load_factor", r->dynamic ? k->time : k->factor);
     pg_json_open (j, "gauges", '{');
-    for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, gauge[g]);
+    for (size_t g = 0; g < p->boundary.ngauge; g++) pg_json_number (j, p->boundary.gauge[g].name, gauge[g]);
     pg_json_shut (j);
     pg_json_shut (j);
     if (r->tips.grows) pg_json_count (j, "rows_not_judged", k->judged ? k->left_out : c->npoint);
@@ -281,18 +284,19 @@ static void tell_peak (const pg_result *r, char *out, size_t size)
 {
     const result_peak *k = &r->curve.peak;
     const pg_problem *p = r->problem;
-    const double *gauge = r->curve.more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
+    const double *gauge = r->curve.more + k->row * (FIRST_GAUGE + p->boundary.ngauge) + FIRST_GAUGE;
     char force[48], place[48], time[48];
     pg_picture_quantity (k->force, "N", force, sizeof force);
     pg_picture_quantity (k->displacement, "m", place, sizeof place);
     pg_picture_time (k->time, time, sizeof time);
     int n = snprintf (out, size, "peak load: %s (force of %s along %c) at displacement %s (step %.0f, ",
-                      force, p->load[r->curve.load].name, "xyz"[r->curve.component], place, k -> step);
+                      force, p->boundary.load[r->curve.load].name, "xyz"[r->curve.component], place,
+                      k -> step);
     n += r->dynamic ? snprintf (out + n, size - (size_t) n, "time %s)", time)
                     : snprintf (out + n, size - (size_t) n, "load factor %.4g)", k->factor);
-    for (size_t g = 0; g < p->ngauge && (size_t) n < size; g++) {
+    for (size_t g = 0; g < p->boundary.ngauge && (size_t) n < size; g++) {
         pg_picture_quantity (gauge[g], "m", place, sizeof place);
-        n += snprintf (out + n, size - (size_t) n, ", %s %s", p->gauge[g].name, place);
+        n += snprintf (out + n, size - (size_t) n, ", %s %s", p->boundary.gauge[g].name, place);
     }
     if ((size_t) n >= size) return;
     if (!k->judged) snprintf (out + n, size - (size_t) n, "; in no row was every crack tip judged");
@@ -352,7 +356,7 @@ pg_status pg_result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;
     double *x = NULL, *y = NULL;
-    const pg_load *load = &r->problem->load[r->curve.load];
+    const pg_load *load = &r->problem->boundary.load[r->curve.load];
     char ylabel[128], xlabel[128], path[4096], force[48], place[48], note[128];
     int events = by_events (r), rest = from_rest (r->problem);
     size_t n = 0, peak = 0;

@@ -52,7 +52,7 @@ void pg_result_paths_check (const pg_scene *scene, const pg_problem *p)
     const pg_force_type *force = pg_force_of (p);
     const char *why = force ? pg_tip_refuses (p, force) : NULL;
     if (p->dim == 1) pg_scene_fault (scene, key, "the tips of cracks are measured in 2D and 3D only");
-    else if (p->ntip == 0 && p->nfront == 0 && !pg_problem_grows (p))
+    else if (p->crack.ntip == 0 && p->crack.nfront == 0 && !pg_problem_grows (p))
         pg_scene_fault (scene, key, "there is no crack with a %s", p->dim == 2 ? "tip" : "front");
     else if (why) pg_scene_fault (scene, key, "%s", why);
 }
@@ -72,7 +72,8 @@ static int in_space (const pg_result *r) { return r->problem->dim == 3; }
 size_t pg_result_paths_columns (const pg_result *r)
 {
     const pg_problem *p = r->problem;
-    return (size_t) r->tips.grows + (has_tips (r) ? in_space (r) ? p->nfront : PER_TIP * p->ntip : 0);
+    return (size_t) r->tips.grows
+           + (has_tips (r) ? in_space (r) ? p->crack.nfront : PER_TIP * p->crack.ntip : 0);
 }
 
 void pg_result_paths_column (const pg_result *r, size_t i, char *out, size_t size)
@@ -80,10 +81,10 @@ void pg_result_paths_column (const pg_result *r, size_t i, char *out, size_t siz
     size_t grows = (size_t) r->tips.grows;
     if (i < grows) snprintf (out, size, "%s", in_space (r) ? "crack.area [m^2]" : "crack.length [m]");
     else if (in_space (r))
-        snprintf (out, size, "front.%ld.J_max [J/m^2]", r->problem->front[i - grows].id);
+        snprintf (out, size, "front.%ld.J_max [J/m^2]", r->problem->crack.front[i - grows].id);
     else {
         i -= grows;
-        snprintf (out, size, "tip.%ld.%s", r->problem->tip[i / PER_TIP].id, tip_columns[i % PER_TIP]);
+        snprintf (out, size, "tip.%ld.%s", r->problem->crack.tip[i / PER_TIP].id, tip_columns[i % PER_TIP]);
     }
 }
 
@@ -185,9 +186,9 @@ pg_status pg_result_paths_row (pg_result *r, const pg_state *state, double *row)
     if (!has_tips (r) || (!in_space (r) && !state->paths)) return PG_OK;
     PG_TRY (measure (r, state));
     if (r->tips.grows) row[n++] = grown (state);
-    for (size_t f = 0; in_space (r) && f < r->problem->nfront; f++)
-        row[n++] = largest_J (r, state, r->problem->front[f].id);
-    for (size_t t = 0; !in_space (r) && t < r->problem->ntip; t++) {
+    for (size_t f = 0; in_space (r) && f < r->problem->crack.nfront; f++)
+        row[n++] = largest_J (r, state, r->problem->crack.front[f].id);
+    for (size_t t = 0; !in_space (r) && t < r->problem->crack.ntip; t++) {
         const pg_tip_values *v = &r->tips.value[t];
         row[n++] = v->J, row[n++] = v->K[0], row[n++] = v->K[1], row[n++] = v->x[0], row[n++] = v->x[1];
     }
@@ -329,7 +330,7 @@ done:
 double pg_result_paths_ratio (const pg_result *r)
 {
     const pg_statistics *s = pg_solver_report_now (r->solver);
-    return s->energy_fracture > 0 ? s->energy_dissipated / s->energy_fracture : NAN;
+    return s->energy.fracture > 0 ? s->energy.dissipated / s->energy.fracture : NAN;
 }
 
 static double front_length (const pg_front *f)
@@ -379,7 +380,7 @@ void pg_result_paths_json (pg_json *j, const pg_result *r, const pg_state *state
     pg_json_number (j, w ? "crack_length" : "crack_area", grown (state));
     pg_json_open (j, "fracture", '{');
     pg_json_number (j, "area", w ? w->length * r->problem->cloud.thickness : s->area);
-    pg_json_number (j, "energy", pg_solver_report_now (r->solver)->energy_fracture);
+    pg_json_number (j, "energy", pg_solver_report_now (r->solver)->energy.fracture);
     pg_json_number (j, w ? "dissipated_over_G0_length" : "dissipated_over_G0_area",
                     pg_result_paths_ratio (r));
     if (w) pg_json_count (j, "segments", w->cracks.n);

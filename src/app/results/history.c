@@ -46,14 +46,15 @@ static int platen_has (const pg_problem *p, int k) { return p->dim == 3 || k < 2
 /* How many forces and displacements a load has columns of; free strains have none. */
 static int columns_of (const pg_problem *p, size_t l)
 {
-    const pg_load *load = &p->load[l];
+    const pg_load *load = &p->boundary.load[l];
     return load->platen || load->kind == PG_EIGENSTRAIN ? 0 : pg_load_components (load, p->dim);
 }
 
 /* Numbers of the axes about which a load has a moment beside its force: from (z in the plane) to dim. */
 static int first_moment (const pg_problem *p, size_t l)
 {
-    int has = p->dim > 1 && columns_of (p, l) && !p->load[l].cracks && !pg_load_rotates (&p->load[l]);
+    int has = p->dim > 1 && columns_of (p, l) && !p->boundary.load[l].cracks
+              && !pg_load_rotates (&p->boundary.load[l]);
     return !has ? 3 : p->dim == 2 ? 2 : 0;
 }
 
@@ -66,32 +67,34 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
-           most = 14 + UNSTABLE_COLUMNS + 9 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage
-                  + r->tips.ntip + tips + pg_result_crack_columns (r) + 1;
+           most = 14 + UNSTABLE_COLUMNS + 9 * p->boundary.nload + 12 * p->boundary.nplaten
+                  + p->boundary.ngauge + r->naverage + r->tips.ntip + tips + pg_result_crack_columns (r) + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
-    for (size_t l = 0; l < p->nload; l++) {
+    for (size_t l = 0; l < p->boundary.nload; l++) {
         for (int k = 0; k < columns_of (p, l); k++) {
-            char axis = pg_load_axis (&p->load[l], p->dim, k);
-            int turns = pg_load_rotates (&p->load[l]);
+            char axis = pg_load_axis (&p->boundary.load[l], p->dim, k);
+            int turns = pg_load_rotates (&p->boundary.load[l]);
             snprintf (name[n++], sizeof *name, turns ? "%s.moment_%c [N m]" : "%s.force_%c [N]",
-                      p->load[l].name, axis);
+                      p->boundary.load[l].name, axis);
             snprintf (name[n++], sizeof *name, turns ? "%s.rotation_%c [rad]" : "%s.displacement_%c [m]",
-                      p->load[l].name, axis);
+                      p->boundary.load[l].name, axis);
         }
         for (int k = first_moment (p, l); k < 3; k++)
-            snprintf (name[n++], sizeof *name, "%s.moment_%c [N m]", p->load[l].name, "xyz"[k]);
+            snprintf (name[n++], sizeof *name, "%s.moment_%c [N m]", p->boundary.load[l].name, "xyz"[k]);
     }
-    for (size_t i = 0; i < p->nplaten; i++)
+    for (size_t i = 0; i < p->boundary.nplaten; i++)
         for (int k = 0; k < 6; k++) {
             static const char *const what[4] = { "%s.force_%c [N]", "%s.displacement_%c [m]",
                                                  "%s.moment_%c [N m]", "%s.rotation_%c [rad]" };
             if (!platen_has (p, k)) continue;
             for (int m = 0; m < 2; m++)
-                snprintf (name[n++], sizeof *name, what[2 * (k / 3) + m], p->platen[i].name, "xyz"[k % 3]);
+                snprintf (name[n++], sizeof *name, what[2 * (k / 3) + m], p->boundary.platen[i].name,
+                          "xyz"[k % 3]);
         }
-    for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
+    for (size_t g = 0; g < p->boundary.ngauge; g++)
+        snprintf (name[n++], sizeof *name, "%s [m]", p->boundary.gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
     for (size_t t = 0; t < r->tips.ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]",
                                                         r->tips.tip[t].name);
@@ -101,13 +104,13 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; goes_unstable (r) && k < UNSTABLE_COLUMNS; k++)
         snprintf (name[n++], sizeof *name, "%s", unstable_columns[k]);
-    if (p->nstage) snprintf (name[n++], sizeof *name, "stage [1]");
+    if (p->boundary.nstage) snprintf (name[n++], sizeof *name, "stage [1]");
     for (size_t k = 0; k < n; k++) column[k] = name[k];
     r->ncolumn = n;
     PG_ALLOC (r->row, n);
     PG_ALLOC (r->u, p->cloud.n * 6);
-    PG_ALLOC (r->here, 2 * p->ngauge);
-    memset (r->here, -1, 2 * p->ngauge);
+    PG_ALLOC (r->here, 2 * p->boundary.ngauge);
+    memset (r->here, -1, 2 * p->boundary.ngauge);
     snprintf (path, sizeof path, "%s/history.csv", r->folder);
     PG_TRY (from ? pg_table_open (&r->history, path, n, column, from->history)
                  : pg_table_create (&r->history, path, n, column));
@@ -165,7 +168,7 @@ static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_l
     double *x = NULL, *u = NULL, *area = NULL, sum[4] = { 0 };
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    if (!q->n) PG_TRY (pg_facet_points (q, &p->cells, p->cracks.n > 0 || r->tips.grows ? 2 : 1));
+    if (!q->n) PG_TRY (pg_facet_points (q, &p->cells, p->crack.given.n > 0 || r->tips.grows ? 2 : 1));
     n = points_of (p, load->set, q, NULL, NULL);
     PG_ALLOC (x, dim * n);
     PG_ALLOC (u, 3 * n);
@@ -296,12 +299,12 @@ static pg_status measure_gauge (pg_result *r, const pg_state *state, size_t g, d
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     double end[2][3] = { { NAN, NAN, NAN }, { NAN, NAN, NAN } };
     for (int e = 0; e < 2 && force->sample; e++) {
-        const double *place = e ? p->gauge[g].to : p->gauge[g].from;
+        const double *place = e ? p->boundary.gauge[g].to : p->boundary.gauge[g].from;
         PG_TRY (pg_cloud_has_nearest (&p->cloud, place, &r->here[2 * g + (size_t) e]));
         PG_TRY (force->sample (self, state, state->d, 1, place, end[e], NULL, NULL));
         for (int k = 0; k < 3 && !r->here[2 * g + (size_t) e]; k++) end[e][k] = 0;
     }
-    *out = pg_gauge_opening (&p->gauge[g], p->dim, end[0], end[1]);
+    *out = pg_gauge_opening (&p->boundary.gauge[g], p->dim, end[0], end[1]);
 done:
     return status;
 }
@@ -349,7 +352,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     r->row[n++] = pg_result_once ((double) step->number), r->row[n++] = pg_result_once (step->time),
     r->row[n++] = pg_result_once (step->factor);
     PG_TRY (move_points (r, state, &moved, &turned));
-    for (size_t l = 0; l < p->nload; l++) {
+    for (size_t l = 0; l < p->boundary.nload; l++) {
         const pg_load *load = &pg_solver_loads (r->solver)[l];
         double facets[3];
         int on_facets = columns_of (p, l) && force->sample && acts_on_facets (p, load);
@@ -363,19 +366,20 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             r->row[n++] = f, r->row[n++] = u;
         }
         for (int k = first_moment (p, l); k < 3; k++)
-            r->row[n++] = step->reaction ? step->reaction[3 * (p->nload + l) + (size_t) k] : 0;
+            r->row[n++] = step->reaction ? step->reaction[3 * (p->boundary.nload + l) + (size_t) k] : 0;
     }
     const pg_platen_values *platen = pg_solver_platens (r->solver, &platens);
-    for (size_t i = 0; i < p->nplaten; i++)
+    for (size_t i = 0; i < p->boundary.nplaten; i++)
         for (int k = 0; k < 6; k++) {
-            int load = p->platen[i].motion >= 0 ? p->platen[i].motion : p->platen[i].force;
+            int load = p->boundary.platen[i].motion >= 0 ? p->boundary.platen[i].motion
+                                                         : p->boundary.platen[i].force;
             if (!platen_has (p, k)) continue;
             double f = i < platens ? platen[i].force[k] : 0, u = i < platens ? platen[i].motion[k] : 0;
             if (load >= 0 && load == c->load && k == c->component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }
     const double *gauges = r->row + n;
-    for (size_t g = 0; g < p->ngauge; g++) PG_TRY (measure_gauge (r, state, g, &r->row[n++]));
+    for (size_t g = 0; g < p->boundary.ngauge; g++) PG_TRY (measure_gauge (r, state, g, &r->row[n++]));
     PG_TRY (pg_result_averages_row (r, state, r->row + n, r->u));
     n += r->naverage;
     PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
@@ -385,18 +389,18 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     /* of cracks every rank knows the whole */
     for (size_t end = n + pg_result_paths_columns (r) + pg_result_crack_columns (r); n < end; n++)
         r->row[n] = pg_result_once (r->row[n]);
-    r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
-    r->row[n++] = report->energy_external;
-    r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken,
+    r->row[n++] = report->energy.strain, r->row[n++] = report->energy.kinetic,
+    r->row[n++] = report->energy.external;
+    r->row[n++] = report->energy.dissipated, r->row[n++] = (double) report->broken,
     r->row[n++] = pg_result_once ((double) step->iterations);
     r->row[n++] = pg_result_once (step->residual), r->row[n++] = pg_result_once (step->utilisation),
     r->row[n++] = pg_result_once (step->event), r->row[n++] = pg_result_once (step->level);
     if (goes_unstable (r)) {
         r->row[n++] = pg_result_once ((double) step->instability);
         r->row[n++] = pg_result_once (step->motion);
-        r->row[n++] = report->energy_damping;
+        r->row[n++] = report->energy.damping;
     }
-    if (p->nstage) r->row[n++] = pg_result_once ((double) step->stage);
+    if (p->boundary.nstage) r->row[n++] = pg_result_once ((double) step->stage);
     PG_TRY (pg_ranks_sum (n, r->row));
     PG_TRY (pg_ranks_sum (1, &shared));
     if (pg_ranks_now ()) PG_TRY (pg_result_collect_broken (r, step, &nbroken, &collected));

@@ -38,7 +38,8 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
     pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);
     pg_json_number (j, "write", res->progress.seconds);
-    if (res->problem->patch.measured) pg_json_number (j, "patch", res->problem->patch.seconds);
+    if (res->problem->quality.patch.measured)
+        pg_json_number (j, "patch", res->problem->quality.patch.seconds);
     if (e) pg_json_number (j, "estimate", e->seconds);
     if (res->measured) pg_json_number (j, "error", res->errors.seconds);
     if (pg_ranks_now ()) pg_json_number (j, "messages", pg_ranks_seconds ());
@@ -52,11 +53,11 @@ static void instability_block (pg_json *j, const pg_result *res, const pg_statis
     pg_unstable policy = pg_solver_settled (res->solver)->on_instability;
     if (policy == PG_UNSTABLE_FOLLOW) return;
     pg_json_open (j, "instabilities", '{');
-    pg_json_count (j, "count", (size_t) r->instabilities);
-    pg_json_count (j, "steps", (size_t) r->unstable_steps);
+    pg_json_count (j, "count", (size_t) r->unstable.count);
+    pg_json_count (j, "steps", (size_t) r->unstable.steps);
     if (policy == PG_UNSTABLE_DYNAMIC) {
-        pg_json_number (j, "motion_time", r->motion_time);
-        pg_json_number (j, "reaction_jump", r->switch_jump);
+        pg_json_number (j, "motion_time", r->unstable.time);
+        pg_json_number (j, "reaction_jump", r->unstable.jump);
     }
     pg_json_shut (j);
 }
@@ -69,31 +70,31 @@ static void contact_block (pg_json *j, const pg_statistics *r, int points)
 {
     pg_json_open (j, "contact", '{');
     if (points) {
-        pg_json_count (j, "pairs", (size_t) r->contact_pairs);
-        pg_json_count (j, "touching", (size_t) r->contact_touching);
+        pg_json_count (j, "pairs", (size_t) r->contact.pairs);
+        pg_json_count (j, "touching", (size_t) r->contact.touching);
         pg_json_shut (j);
         return;
     }
-    pg_json_count (j, "pieces", (size_t) r->contact_pieces);
-    pg_json_count (j, "open", (size_t) r->contact_open);
-    pg_json_count (j, "stick", (size_t) r->contact_stick);
-    pg_json_count (j, "sliding", (size_t) r->contact_sliding);
-    pg_json_count (j, "passes", (size_t) r->contact_passes);
-    pg_json_count (j, "sweeps", (size_t) r->contact_sweeps);
-    pg_json_count (j, "columns", (size_t) r->contact_columns);
-    pg_json_count (j, "solves", (size_t) r->contact_solves);
-    pg_json_count (j, "changes", (size_t) r->contact_changes);
-    pg_json_number (j, "seconds", r->contact_seconds);
-    pg_json_number (j, "seconds_per_event", r->contact_seconds / (double) (r->events > 0 ? r->events : 1));
-    pg_json_number (j, "overlap_of_means", r->contact_overlap);
+    pg_json_count (j, "pieces", (size_t) r->contact.pieces);
+    pg_json_count (j, "open", (size_t) r->contact.open);
+    pg_json_count (j, "stick", (size_t) r->contact.stick);
+    pg_json_count (j, "sliding", (size_t) r->contact.sliding);
+    pg_json_count (j, "passes", (size_t) r->contact.passes);
+    pg_json_count (j, "sweeps", (size_t) r->contact.sweeps);
+    pg_json_count (j, "columns", (size_t) r->contact.columns);
+    pg_json_count (j, "solves", (size_t) r->contact.solves);
+    pg_json_count (j, "changes", (size_t) r->contact.changes);
+    pg_json_number (j, "seconds", r->contact.seconds);
+    pg_json_number (j, "seconds_per_event", r->contact.seconds / (double) (r->events > 0 ? r->events : 1));
+    pg_json_number (j, "overlap_of_means", r->contact.overlap);
     pg_json_shut (j);
 }
 
 /* Points of a set that this rank owns, where they are no nodes, and the bonds of all that it owns. */
 static void count_owned (const pg_problem *p, int set, double *points, double *bonds)
 {
-    const size_t *first = p->rows[set].family.start;
-    for (size_t i = 0; i < p->rows[set].n; i++) {
+    const size_t *first = p->bonds.rows[set].family.start;
+    for (size_t i = 0; i < p->bonds.rows[set].n; i++) {
         if (!pg_problem_owns (p, set, i)) continue;
         *points += set == PG_POINTS, *bonds += (double) (first[i + 1] - first[i]);
     }
@@ -105,24 +106,24 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
 {
     const pg_problem *p = res->problem;
     const pg_contact_setting *setting = &pg_solver_settled (res->solver)->contact;
-    int contact = setting->kind != PG_CONTACT_NONE || p->nplaten,
+    int contact = setting->kind != PG_CONTACT_NONE || p->boundary.nplaten,
         explicit_ = (pg_solver_settled (res->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
-        points = contact && (setting->search == PG_CONTACT_SHORT_RANGE || (explicit_ && p->nplaten));
-    double total[4] = { (double) p->cloud.n, (double) p->first_bond[PG_BOND_SETS], (double) state->ndof },
-           evaluated = p->rows[PG_POINTS].n ? (double) p->rows[PG_POINTS].n : total[0];
+        points = contact && (setting->search == PG_CONTACT_SHORT_RANGE || (explicit_ && p->boundary.nplaten));
+    double total[4] = { (double) p->cloud.n, (double) p->bonds.first[PG_BOND_SETS], (double) state->ndof },
+           evaluated = p->bonds.rows[PG_POINTS].n ? (double) p->bonds.rows[PG_POINTS].n : total[0];
     const pg_subdomain *s = p->cloud.subdomain;
     if (s) {                                           /* each point, and its bonds, where it is owned */
         total[0] = (double) s->nowned, total[1] = 0, total[2] *= (double) s->nowned / (double) s->n;
         for (int set = 0; set < PG_BOND_SETS; set++) count_owned (p, set, &total[3], &total[1]);
         if (pg_ranks_sum (4, total) != PG_OK) total[0] = total[1] = total[2] = total[3] = 0;
-        evaluated = p->integration && !p->integration->at_nodes ? total[3] : total[0];
+        evaluated = p->form.integration && !p->form.integration->at_nodes ? total[3] : total[0];
     }
     pg_json_count (j, "points", (size_t) total[0]);
     pg_json_number (j, "finest_spacing", pg_cloud_finest (&p->cloud));
     pg_json_count (j, "bonds", (size_t) total[1]);
     pg_json_count (j, "dofs", (size_t) (total[2] + 0.5));
     pg_json_count (j, "evaluation_points", (size_t) evaluated);
-    pg_json_count (j, "eroded_points", p->eroded);
+    pg_json_count (j, "eroded_points", p->crack.eroded);
     pg_json_count (j, "steps", (size_t) r->steps);
     pg_json_count (j, "events", (size_t) r->events);
     pg_json_count (j, "iterations", (size_t) r->iterations);
@@ -130,10 +131,10 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_count (j, "bonds_over_limit", (size_t) r->bonds_over_limit);
     pg_json_number (j, "utilisation_max", r->utilisation_max);
     pg_json_number (j, "residual_max", r->residual_max);
-    pg_json_count (j, "factorizations", (size_t) r->factorizations);
-    pg_json_count (j, "updates", (size_t) r->updates);
-    pg_json_count (j, "solves", (size_t) r->solves);
-    pg_json_count (j, "cg_iterations", r->cg_iterations);
+    pg_json_count (j, "factorizations", (size_t) r->linear.factorizations);
+    pg_json_count (j, "updates", (size_t) r->linear.updates);
+    pg_json_count (j, "solves", (size_t) r->linear.solves);
+    pg_json_count (j, "cg_iterations", r->linear.cg_iterations);
     pg_json_count (j, "degenerate_points", r->degenerate_points);
     if (r->degenerate_points) {
         pg_json_open (j, "degenerate_at", '[');
@@ -143,20 +144,20 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_count (j, "unended_cells", r->unended_cells);
     pg_json_count (j, "isolated_nodes", r->isolated_nodes);
     pg_json_count (j, "fragments", r->fragments);
-    pg_json_number (j, "overlap_max", r->overlap_max);
-    pg_json_text (j, "linear_solver", r->solver);
-    pg_json_text (j, "ordering", r->ordering);
-    pg_json_text (j, "preconditioner", r->preconditioner);
-    pg_json_count (j, "preconditioners", (size_t) r->preconditioners);
-    pg_json_number (j, "factor_entries", r->factor_entries);
+    pg_json_number (j, "overlap_max", r->contact.overlap_max);
+    pg_json_text (j, "linear_solver", r->linear.solver);
+    pg_json_text (j, "ordering", r->linear.ordering);
+    pg_json_text (j, "preconditioner", r->linear.preconditioner);
+    pg_json_count (j, "preconditioners", (size_t) r->linear.preconditioners);
+    pg_json_number (j, "factor_entries", r->linear.factor_entries);
     pg_json_open (j, "energy", '{');
-    pg_json_number (j, "strain", r->energy_strain);
-    pg_json_number (j, "kinetic", r->energy_kinetic);
-    pg_json_number (j, "external", r->energy_external);
-    pg_json_number (j, "damping", r->energy_damping);
-    pg_json_number (j, "dissipated", r->energy_dissipated);
-    if (contact) pg_json_number (j, "friction", r->energy_friction);
-    if (points) pg_json_number (j, "contact", r->energy_contact);
+    pg_json_number (j, "strain", r->energy.strain);
+    pg_json_number (j, "kinetic", r->energy.kinetic);
+    pg_json_number (j, "external", r->energy.external);
+    pg_json_number (j, "damping", r->energy.damping);
+    pg_json_number (j, "dissipated", r->energy.dissipated);
+    if (contact) pg_json_number (j, "friction", r->energy.friction);
+    if (points) pg_json_number (j, "contact", r->energy.contact);
     pg_json_shut (j);
     if (contact) contact_block (j, r, points);
 }
@@ -172,7 +173,7 @@ static void stages_block (pg_json *j, const pg_result *res)
     pg_json_open (j, "stages", '[');
     for (size_t k = 0; k < n; k++, r++) {
         pg_json_open (j, NULL, '{');
-        pg_json_text (j, "name", p->stage[k].name);
+        pg_json_text (j, "name", p->boundary.stage[k].name);
         if (r->done) {
             pg_json_text (j, "ended_by", r->why);
             pg_json_number (j, "share", r->share);
@@ -184,9 +185,10 @@ static void stages_block (pg_json *j, const pg_result *res)
             pg_json_number (j, "external", r->external);
             pg_json_number (j, "dissipated", r->dissipated);
             pg_json_shut (j);
-            if (p->ngauge) pg_json_open (j, "gauges", '{');
-            for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, r->gauge[g]);
-            if (p->ngauge) pg_json_shut (j);
+            if (p->boundary.ngauge) pg_json_open (j, "gauges", '{');
+            for (size_t g = 0; g < p->boundary.ngauge; g++)
+                pg_json_number (j, p->boundary.gauge[g].name, r->gauge[g]);
+            if (p->boundary.ngauge) pg_json_shut (j);
         }
         pg_json_shut (j);
     }
@@ -219,7 +221,7 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_number (j, "relative", e->relative);
     pg_json_number (j, "error", e->error);
     pg_json_number (j, "norm", e->norm);
-    pg_json_text (j, "kind", res->problem->integration->at_nodes ? "lower bound" : "estimate");
+    pg_json_text (j, "kind", res->problem->form.integration->at_nodes ? "lower bound" : "estimate");
     pg_json_count (j, "points", e->points);
     pg_json_count (j, "left_out", e->left_out);
     pg_json_shut (j);
@@ -229,27 +231,27 @@ static void estimate_block (pg_json *j, const pg_result *res)
  * measured. */
 static void patch_block (pg_json *j, const pg_problem *p)
 {
-    if (!p->patch.measured) return;
-    pg_json_number (j, "patch_error", p->patch.error);
+    if (!p->quality.patch.measured) return;
+    pg_json_number (j, "patch_error", p->quality.patch.error);
     pg_json_open (j, "patch", '{');
     pg_json_text (j, "stress", pg_patch_state (p));
-    pg_json_number (j, "compliance", p->patch.compliance);
-    pg_json_number (j, "rigid", p->patch.rigid);
-    pg_json_text (j, "loaded", p->patch.held ? "outermost points held" : "whole surface");
-    pg_json_text (j, "kind", p->patch.settled ? "measured" : "lower bound");
-    pg_json_count (j, "iterations", p->patch.iterations);
+    pg_json_number (j, "compliance", p->quality.patch.compliance);
+    pg_json_number (j, "rigid", p->quality.patch.rigid);
+    pg_json_text (j, "loaded", p->quality.patch.held ? "outermost points held" : "whole surface");
+    pg_json_text (j, "kind", p->quality.patch.settled ? "measured" : "lower bound");
+    pg_json_count (j, "iterations", p->quality.patch.iterations);
     pg_json_shut (j);
 }
 
 /* What forces and moments miss of balance, over the loads; missing if it was not measured. */
 static void balance_block (pg_json *j, const pg_problem *p, const pg_statistics *r)
 {
-    if (r->balances == 0) return;
+    if (r->balance.states == 0) return;
     pg_json_open (j, "balance", '{');
-    pg_json_number (j, "forces", r->balance_force);
-    if (p->method->shape_functions) pg_json_number (j, "moments", r->balance_moment);
+    pg_json_number (j, "forces", r->balance.force);
+    if (p->method->shape_functions) pg_json_number (j, "moments", r->balance.moment);
     pg_json_number (j, "allowed", pg_balance_allowed (r, p));
-    pg_json_count (j, "states", (size_t) r->balances);
+    pg_json_count (j, "states", (size_t) r->balance.states);
     pg_json_shut (j);
 }
 
@@ -319,7 +321,7 @@ static void variations (pg_json *j, const pg_problem *p)
     pg_json_open (j, "varies", '[');
     for (size_t m = 0; m < p->nmaterial; m++)
         for (int k = 0; k < PG_OF_COUNT; k++) {
-            const pg_variation *v = &p->vary[m];
+            const pg_variation *v = &p->at.vary[m];
             if (!v->of[k] || !(v->most[k] > 0)) continue;
             pg_json_open (j, NULL, '{');
             pg_json_text (j, "material", p->material[m].name);

@@ -53,8 +53,8 @@ static pg_status list_dead (const pg_problem *p, const unsigned char *alive, siz
     *n = 0;
     PG_TRY (pg_problem_numbers (p, PG_NODES, &node));
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &p->rows[set].family;
-        const unsigned char *bit = alive + p->first_bond[set];
+        const pg_family *f = &p->bonds.rows[set].family;
+        const unsigned char *bit = alive + p->bonds.first[set];
         pg_free (point), point = NULL;
         PG_TRY (pg_problem_numbers (p, set, &point));
         for (size_t q = 0; q < f->n; q++) {
@@ -114,7 +114,7 @@ static pg_status sort_numbers (const pg_problem *p, int set, size_t *n, parts_nu
 {
     pg_status status = PG_OK;
     int64_t *number = NULL;
-    *n = set == PG_NODES ? p->cloud.n : p->rows[set].n;
+    *n = set == PG_NODES ? p->cloud.n : p->bonds.rows[set].n;
     PG_TRY (pg_problem_numbers (p, set, &number));
     PG_ALLOC (*out, *n);
     for (size_t i = 0; i < *n; i++) (*out)[i] = (parts_number) { number[i], i };
@@ -344,12 +344,12 @@ static pg_status bonds (void *context, unsigned char *alive)
         for (size_t j = 0; j + 1 < n; j += OF_BOND) {
             int set = (int) (dead[j] % SETS);
             if (dead[j] < 0 || set >= PG_BOND_SETS) PG_FAIL (PG_E_FILE, "%s: a bond of no set", w->folder);
-            const pg_family *f = &p->rows[set].family;
+            const pg_family *f = &p->bonds.rows[set].family;
             size_t point = find_number (w->number[set], w->n[set], dead[j] / SETS),
                    node = find_number (w->number[PG_NODES], w->n[PG_NODES], dead[j + 1]);
             if (point == SIZE_MAX || node == SIZE_MAX || point >= f->n) continue;
             for (size_t e = f->start[point]; e < f->start[point + 1]; e++)
-                if ((size_t) f->node[e] == node) alive[p->first_bond[set] + e] = 0;
+                if ((size_t) f->node[e] == node) alive[p->bonds.first[set] + e] = 0;
         }
     }
 done:

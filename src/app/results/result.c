@@ -54,7 +54,7 @@ static pg_status read_requests (pg_result *r, const pg_scene *scene)
         snprintf (f->field[f->nfield++].name, sizeof f->field->name, "%s", name);
         with_u |= strcmp (name, "displacement") == 0;
     }
-    if (with_u && f->nfield < MOST_FIELDS && !r->problem->approx.type->interpolates)
+    if (with_u && f->nfield < MOST_FIELDS && !r->problem->form.approx.type->interpolates)
         snprintf (f->field[f->nfield++].name, sizeof f->field->name, "coefficient");
     PG_TRY (pg_result_views_read (r, scene));
     for (size_t k = 0; k < f->nfield; k++) PG_TRY (prepare_field (&f->field[k], &f->value[k], r->problem));
@@ -195,7 +195,7 @@ static pg_status share_has_broken (pg_result *r, const pg_state *state, int *has
 {
     pg_status status = PG_OK;
     const pg_subdomain *s = r->problem->cloud.subdomain;
-    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    const pg_family *f = &r->problem->bonds.rows[PG_NODES].family;
     double sum[2] = { (double) state->broken, s ? 0 : (double) state->nbond };
     *has = 0;
     if (!(r->fields.broken_share > 0)) return PG_OK;

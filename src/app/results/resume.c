@@ -94,8 +94,8 @@ static pg_status keep_identity (resumed *m, const pg_keeper *k)
     pg_status status = PG_OK;
     const pg_problem *p = m->r->problem;
     /* Whatever changes one of these numbers makes the checkpoint useless for this problem. */
-    long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
-                    (long) m->state->ndof,   (long) p->nload,
+    long size[] = { (long) p->cloud.n,       (long) p->bonds.first[PG_BOND_SETS],
+                    (long) m->state->ndof,   (long) p->boundary.nload,
                     fingerprint (&p->cloud), (long) m->r->tips.ntip };
     enum { SIZES = sizeof size / sizeof *size };
     long found[SIZES];
@@ -152,11 +152,11 @@ static pg_status keep_pending (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_step *s = &m->pending;
-    size_t nreaction = s->reaction || k->reading ? PG_REACTIONS * m->r->problem->nload : 0;
+    size_t nreaction = s->reaction || k->reading ? PG_REACTIONS * m->r->problem->boundary.nload : 0;
     if (!m->is_pending) goto done;
     PG_TRY (pg_keep_fields (k, "pending", "counts", "numbers", 1, PG_ROWS (
         PG_KEPT (s->number), PG_KEPT (s->iterations), PG_KEPT (s->level), PG_KEPT (s->event),
-        PG_KEPT_IN (s->nbroken, 0, m->r->problem->first_bond[PG_BOND_SETS], "the bonds broken in a step"),
+        PG_KEPT_IN (s->nbroken, 0, m->r->problem->bonds.first[PG_BOND_SETS], "the bonds broken in a step"),
         PG_KEPT (s->instability), PG_KEPT (s->stage), PG_KEPT (s->unjudged), PG_KEPT (s->stamp),
         PG_KEPT (s->time), PG_KEPT (s->factor), PG_KEPT (s->residual), PG_KEPT (s->utilisation),
         PG_KEPT (s->dissipated), PG_KEPT (s->motion))));

@@ -50,9 +50,9 @@ pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, siz
         int set;
         size_t point;
         pg_problem_locate (p, b->bond, &set, &point);
-        size_t node = (size_t) p->rows[set].family.node[b->bond - p->first_bond[set]];
+        size_t node = (size_t) p->bonds.rows[set].family.node[b->bond - p->bonds.first[set]];
         mine[i].broken = *b;
-        mine[i].point = p->held[set].number[point], mine[i].node = p->cloud.subdomain->number[node];
+        mine[i].point = p->bonds.held[set].number[point], mine[i].node = p->cloud.subdomain->number[node];
     }
     PG_TRY (pg_ranks_collect (step->nbroken * sizeof *mine, mine, &bytes, &all));
     *n = bytes / sizeof *mine;

@@ -126,11 +126,12 @@ done:
 static pg_status evaluate_nodes (pg_equations *e, const pg_problem *p, const pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_rows rows = p->rows[PG_NODES];                  /* places and families are borrowed */
+    pg_rows rows = p->bonds.rows[PG_NODES];                  /* places and families are borrowed */
     rows.N = rows.dN = rows.w = NULL, rows.at = NULL, rows.grade = NULL;
     PG_TRY (pg_rows_values (&rows));
-    PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &rows, state->alive + p->first_bond[PG_NODES],
-                                      rows.n, NULL, p->threads));
+    PG_TRY (p->form.approx.type->evaluate (&p->form.approx, &p->cloud, &rows,
+                                           state->alive + p->bonds.first[PG_NODES], rows.n, NULL,
+                                           p->threads));
     PG_TRY (take_values (e, &rows));
 done:
     pg_free (rows.N), pg_free (rows.dN), pg_free (rows.w), pg_free (rows.at), pg_free (rows.grade);
@@ -191,7 +192,7 @@ pg_status pg_equations_create (pg_equations *out, const pg_problem *problem, con
     pg_state *start = NULL;
     *out = (pg_equations) { .dim = problem->dim };
     if (!isfinite (t)) PG_FAIL (PG_E_USAGE, "the load factor or time is %g", t);
-    if (problem->nplaten)
+    if (problem->boundary.nplaten)
         PG_FAIL (PG_E_USAGE, "a body between platens has no linear system: contact decides what bears");
     PG_TRY (force->create (&self, problem));
     if (!pg_force_matrix (force, self))

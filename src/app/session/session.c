@@ -166,11 +166,11 @@ static size_t other_end (const pg_problem *p, size_t bond)
     int set;
     size_t point;
     pg_problem_locate (p, bond, &set, &point);
-    const pg_family *f = &p->rows[set].family;
-    int node = f->node[bond - p->first_bond[set]];
+    const pg_family *f = &p->bonds.rows[set].family;
+    int node = f->node[bond - p->bonds.first[set]];
     if (set != PG_NODES || (size_t) node == point || f->start[node] == f->start[node + 1]) return SIZE_MAX;
     size_t e = session_mirror (f, (int) point, node);
-    return f->node[e] == (int) point ? e + p->first_bond[set] : SIZE_MAX;
+    return f->node[e] == (int) point ? e + p->bonds.first[set] : SIZE_MAX;
 }
 
 pg_status pg_session_cut (pg_session *s, size_t n, const size_t *bond)

@@ -21,8 +21,8 @@ static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 {
     size_t point, dim = (size_t) p->dim;
     pg_problem_locate (p, bond, &b->set, &point);
-    const pg_rows *r = &p->rows[b->set];
-    const double *end = p->cloud.x + (size_t) r->family.node[bond - p->first_bond[b->set]] * dim;
+    const pg_rows *r = &p->bonds.rows[b->set];
+    const double *end = p->cloud.x + (size_t) r->family.node[bond - p->bonds.first[b->set]] * dim;
     for (size_t k = 0; k < dim; k++) b->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 

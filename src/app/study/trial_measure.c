@@ -38,7 +38,7 @@ static void count (pg_trial *t, const pg_problem *p, const pg_state *state, cons
         PG_TRIAL_FORCE, PG_TRIAL_BREAK,   PG_TRIAL_ASSEMBLE, PG_TRIAL_UPDATE
     };
     for (int k = 0; k < PG_SECONDS_COUNT; k++) t->value[phase[k]] = r->seconds[k];
-    t->value[PG_TRIAL_SPACING] = p->cloud.h, t->value[PG_TRIAL_HORIZON] = p->approx.horizon;
+    t->value[PG_TRIAL_SPACING] = p->cloud.h, t->value[PG_TRIAL_HORIZON] = p->form.approx.horizon;
     t->value[PG_TRIAL_POINTS] = (double) p->cloud.n, t->value[PG_TRIAL_DOFS] = (double) state->ndof;
 }
 

@@ -27,7 +27,8 @@ tip_material material_at (const pg_problem *p, size_t node)
                            .modulus = 8 * law->mu / (kappa + 1),
                            .density = law->density,
                            .law = law,
-                           .lambda = p->patches ? p->patches->lambda[p->block[PG_NODES][node]] : 0 };
+                           .lambda = p->form.patches ? p->form.patches->lambda[p->block[PG_NODES][node]]
+                                                     : 0 };
 }
 
 /* ---- what acts ----------------------------------------------------------------------------------------- */
@@ -41,7 +42,7 @@ static int acts (const pg_load *load, size_t node)
 
 int has_body_force (const pg_problem *p, size_t node)
 {
-    for (size_t l = 0; l < p->nload; l++) if (acts (&p->load[l], node)) return 1;
+    for (size_t l = 0; l < p->boundary.nload; l++) if (acts (&p->boundary.load[l], node)) return 1;
     return 0;
 }
 
@@ -77,8 +78,9 @@ pg_status measuring_begin (measuring *m, size_t n, const double *x, double reach
     pg_status status = PG_OK;
     static const double anywhere[3] = { 0 };
     for (int a = 0; a < m->nfield; a++) {
-        for (size_t l = 0; l < m->p->nload; l++)
-            if (m->p->load[l].cracks) m->pressure[a] += load_of (m, &m->p->load[l], 0, anywhere, a);
+        for (size_t l = 0; l < m->p->boundary.nload; l++)
+            if (m->p->boundary.load[l].cracks)
+                m->pressure[a] += load_of (m, &m->p->boundary.load[l], 0, anywhere, a);
         PG_TRY (mean_motion_take (&m->field[a], m->p, m->state, m->d[a], n, x, reach));
     }
     m->moving = moves (m);
@@ -161,7 +163,7 @@ pg_status places_sample (front_places *q, const measuring *m, int a)
     PG_TRY (make_room (&f->u, q, 3));
     PG_TRY (make_room (&f->H, q, 9));
     PG_TRY (make_room (&f->S, q, 9));
-    if (m->p->patches) PG_TRY (make_room (&f->excess, q, 1));
+    if (m->p->form.patches) PG_TRY (make_room (&f->excess, q, 1));
     if (f->load) memset (f->load, 0, 3 * q->n * sizeof *f->load);
     PG_TRY (gradient_sample (m->p, m->force, m->self, m->state, m->field[a].d, q->n, q->x, f->u, q->stress,
                              q->gradient));
@@ -186,8 +188,8 @@ pg_status places_force (front_places *q, const measuring *m, int a)
     double *load;
     PG_TRY (make_room (&q->field[a].load, q, 3));
     load = q->field[a].load;
-    for (size_t l = 0; l < m->p->nload; l++) {
-        const pg_load *one = &m->p->load[l];
+    for (size_t l = 0; l < m->p->boundary.nload; l++) {
+        const pg_load *one = &m->p->boundary.load[l];
         size_t section = SIZE_MAX;
         int here = 0;
         for (size_t k = 0; k < q->n; k++) {

@@ -119,7 +119,7 @@ static pg_status measure_sections (const measuring *m)
     pg_status status = PG_OK;
     front_places ring = { 0 }, q = { 0 };
     int forced = 0;
-    for (size_t l = 0; l < m->p->nload; l++) forced |= m->p->load[l].kind == PG_BODY_FORCE;
+    for (size_t l = 0; l < m->p->boundary.nload; l++) forced |= m->p->boundary.load[l].kind == PG_BODY_FORCE;
     PG_TRY (front_places_make (&ring, m->h));
     PG_TRY (places_create (&q, CHUNK * ring.n));
     for (size_t first = 0; first < m->n; first += CHUNK) {
@@ -350,7 +350,7 @@ static pg_status prepare (front_line *l)
     for (size_t i = 0; i < f->n; i++) m->h = fmax (m->h, pg_problem_spacing_at (m->p, f->x + 3*i));
     m->r1 = m->h;
     for (int r = 0; r < FRONT_RADII; r++) m->radius[r] = front_radius[r] * m->h;
-    for (size_t k = 0; k < m->p->nload; k++) uneven |= m->p->load[k].kind == PG_BODY_FORCE;
+    for (size_t k = 0; k < m->p->boundary.nload; k++) uneven |= m->p->boundary.load[k].kind == PG_BODY_FORCE;
     if (uneven) PG_TRY (pg_nearest_create (&l->near, 3, m->p->cloud.n, m->p->cloud.x));
     PG_ALLOC (m->section, m->n);
     PG_ALLOC (l->width, f->n);

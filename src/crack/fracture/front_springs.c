@@ -59,8 +59,8 @@ static void add_all (const measuring *m, pulls *out)
 {
     const pg_problem *p = m->p;
     out->q.n = 0;
-    for (size_t l = 0; l < p->nload; l++) {
-        pull one = { .load = &p->load[l] };
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        pull one = { .load = &p->boundary.load[l] };
         if (one.load->kind != PG_SPRING) continue;
         for (; one.at < one.load->set->npoint; one.at++) {
             double volume = p->cloud.volume[point_of (&one)];
@@ -162,13 +162,13 @@ pg_status springs_spread (front_places *q, const measuring *m, int at)
     front_sample *f = &q->field[at];
     size_t springs = 0, *of = NULL;
     pg_nearest *near = NULL;
-    for (size_t l = 0; l < p->nload; l++) springs += p->load[l].kind == PG_SPRING;
+    for (size_t l = 0; l < p->boundary.nload; l++) springs += p->boundary.load[l].kind == PG_SPRING;
     if (!springs) return PG_OK;
     PG_TRY (pg_nearest_create (&near, p->dim, p->cloud.n, p->cloud.x));
     PG_ALLOC (of, p->cloud.n);
     if (!f->load) PG_ALLOC (f->load, 3 * q->capacity);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (load->kind != PG_SPRING) continue;
         memset (of, 0, p->cloud.n * sizeof *of);       /* 1 + number within the set */
         for (size_t i = 0; i < load->set->npoint; i++) of[load->set->point[i]] = 1 + i;

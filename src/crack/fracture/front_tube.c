@@ -125,9 +125,10 @@ static double across (const view *v, const double *x)
 static double room_of_loads (const view *v, double room, int *load)
 {
     const pg_problem *p = v->p;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_set *set = p->load[l].set;
-        if (p->load[l].kind == PG_BODY_FORCE || p->load[l].kind == PG_SPRING || !set) continue;
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_set *set = p->boundary.load[l].set;
+        if (p->boundary.load[l].kind == PG_BODY_FORCE || p->boundary.load[l].kind == PG_SPRING || !set)
+            continue;
         for (size_t i = 0; i < set->npoint; i++) {
             double away = across (v, p->cloud.x + 3 * (size_t) set->point[i]);
             if (away < room) room = away, *load = (int) l;
@@ -141,9 +142,9 @@ static int alike (const pg_problem *p, size_t i, size_t j)
 {
     const pg_material *a = pg_problem_law (p, PG_NODES, i), *b = pg_problem_law (p, PG_NODES, j);
     double lambda[2] = { 0, 0 };
-    if (p->patches)
-        lambda[0] = p->patches->lambda[p->block[PG_NODES][i]],
-        lambda[1] = p->patches->lambda[p->block[PG_NODES][j]];
+    if (p->form.patches)
+        lambda[0] = p->form.patches->lambda[p->block[PG_NODES][i]],
+        lambda[1] = p->form.patches->lambda[p->block[PG_NODES][j]];
     return a == b || (a->E == b->E && a->nu == b->nu && lambda[0] == lambda[1]);
 }
 

@@ -134,8 +134,8 @@ static void add_all (site *at, sums *s, size_t n, const double *const *d)
 {
     const gradient_fit *fit = at->fit;
     const pg_problem *p = fit->problem;
-    const pg_family *family = &p->rows[PG_NODES].family;
-    const unsigned char *alive = fit->state->alive + p->first_bond[PG_NODES];
+    const pg_family *family = &p->bonds.rows[PG_NODES].family;
+    const unsigned char *alive = fit->state->alive + p->bonds.first[PG_NODES];
     for (size_t k = 0; k < at->n; k++) {
         size_t i = at->from[k];
         add_point (fit, s, at->x, i, n, d);

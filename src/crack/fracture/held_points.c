@@ -9,7 +9,7 @@
 static int spans (const pg_problem *p, const unsigned char *alive, size_t i)
 {
     const double flat = 1e-9;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     const double *x = p->cloud.x;
     size_t dim = (size_t) p->dim;
     double T[9] = { 0 }, lambda[3];
@@ -27,14 +27,14 @@ static int spans (const pg_problem *p, const unsigned char *alive, size_t i)
 
 int point_is_held (const pg_problem *p, const pg_state *state, size_t i)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
-    if (p->method->shape_functions && !p->integration->at_nodes) {
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
+    if (p->method->shape_functions && !p->form.integration->at_nodes) {
         const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, state), p->cloud.x + i * (size_t) p->dim,
                                               pg_cloud_same (&p->cloud));
         return !(on && !on->sided);
     }
     if (!f->start) return 1;
-    const unsigned char *alive = state->alive + p->first_bond[PG_NODES];
+    const unsigned char *alive = state->alive + p->bonds.first[PG_NODES];
     if (!p->method->shape_functions && pg_problem_rotations (p) == 0) return spans (p, alive, i);
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
         if (alive[e] && (size_t) f->node[e] != i) return 1;

@@ -55,9 +55,9 @@ static void end_room (pg_tip_field *out, double room, int limit, int load)
 /* Up to the nearest node on which a support or a force acts whose force is in no integral. */
 static void end_at_loads (pg_tip_field *out, const pg_problem *p)
 {
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_set *set = p->load[l].set;
-        if (p->load[l].kind == PG_BODY_FORCE || p->load[l].kind == PG_SPRING) continue;
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_set *set = p->boundary.load[l].set;
+        if (p->boundary.load[l].kind == PG_BODY_FORCE || p->boundary.load[l].kind == PG_SPRING) continue;
         for (size_t i = 0; i < set->npoint; i++)
             end_room (out, distance (p, (size_t) set->point[i], out->x), PG_ROOM_LOAD, (int) l);
     }
@@ -76,9 +76,9 @@ int tip_same_material (const pg_problem *p, size_t i, size_t k)
 static int differs (const pg_problem *p, size_t i, size_t here)
 {
     if (!tip_same_material (p, i, here)) return PG_ROOM_MATERIAL;
-    for (size_t l = 0; l < p->nload; l++)
-        if (p->load[l].kind == PG_BODY_FORCE
-            && member (p->load[l].set, i) != member (p->load[l].set, here))
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (p->boundary.load[l].kind == PG_BODY_FORCE
+            && member (p->boundary.load[l].set, i) != member (p->boundary.load[l].set, here))
             return PG_ROOM_FORCE;
     return PG_ROOM_FREE;
 }
@@ -86,8 +86,9 @@ static int differs (const pg_problem *p, size_t i, size_t here)
 /* Is there but one material, and are all body forces everywhere? */
 static int is_uniform (const pg_problem *p)
 {
-    for (size_t l = 0; l < p->nload; l++)
-        if (p->load[l].kind == PG_BODY_FORCE && p->load[l].set->npoint < p->cloud.n) return 0;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (p->boundary.load[l].kind == PG_BODY_FORCE && p->boundary.load[l].set->npoint < p->cloud.n)
+            return 0;
     return p->nmaterial == 1;
 }
 
@@ -153,8 +154,8 @@ void pg_tip_limit_words (const pg_problem *p, const pg_tip_field *f, char *out, 
         [PG_ROOM_LOAD] = "a load", [PG_ROOM_MATERIAL] = "another material",
         [PG_ROOM_FORCE] = "the border of a body force", [PG_ROOM_FACES] = "crack faces that touch"
     };
-    if (f->limit == PG_ROOM_LOAD && f->load >= 0 && (size_t) f->load < p->nload) {
-        const pg_load *load = &p->load[f->load];
+    if (f->limit == PG_ROOM_LOAD && f->load >= 0 && (size_t) f->load < p->boundary.nload) {
+        const pg_load *load = &p->boundary.load[f->load];
         snprintf (out, size, "the %s %.40s", pg_load_prescribes (load) ? "support" : "load", load->name);
     } else snprintf (out, size, "%s", words[f->limit]);
 }

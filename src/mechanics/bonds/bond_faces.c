@@ -116,7 +116,7 @@ static pg_status add_listed (search *s)
         int set;
         double along = 0;
         point_bonds bonds = { 0 };
-        pg_problem_locate (b->problem, b->problem->first_bond[PG_NODES] + e, &set, &i);
+        pg_problem_locate (b->problem, b->problem->bonds.first[PG_NODES] + e, &set, &i);
         for (size_t c = 0; c < dim; c++)
             along += f->normal[dim * f->place[k] + c] * (x[dim * j + c] - x[dim * i + c]);
         point_bonds_at (b, i, 0, &bonds);

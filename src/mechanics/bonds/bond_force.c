@@ -70,7 +70,7 @@ static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *su
 {
     pg_bond_loop_setting *s = &b->setting;             /* constants: of the theory */
     s->sums = sums, s->family = b->family, s->limit = limit, s->threads = b->threads;
-    s->exempt = b->problem->exempt[PG_NODES], s->plain = b->problem->plain;
+    s->exempt = b->problem->bonds.exempt[PG_NODES], s->plain = b->problem->plain;
     pg_status status = pg_bond_loop_create (out, s);
     if (status != PG_E_USAGE) return status;
     char why[512];
@@ -91,7 +91,7 @@ pg_status bond_force_make (void **self, const pg_problem *problem, const bond_th
     b->theory = theory;
     b->problem = problem, b->dim = problem->dim, b->threads = problem->threads, b->n = problem->cloud.n;
     b->stride = pg_problem_unknowns (problem);
-    b->family = &problem->rows[PG_NODES].family;
+    b->family = &problem->bonds.rows[PG_NODES].family;
     b->all_stale = 1, b->revision = 1;
     b->op = (pg_operator) { ndof (b), b, bond_force_apply, bond_force_diagonal };
     for (size_t i = 0; i < b->n; i++) {
@@ -223,7 +223,7 @@ pg_status bond_force_loads (void *self, double t, double *P)
 pg_status bond_force_surface (void *self, const double *stress, double *P)
 {
     bond_force *b = self;
-    return b->problem->nload ? boundary_surface (&b->boundary, 0, stress, P) : PG_OK;
+    return b->problem->boundary.nload ? boundary_surface (&b->boundary, 0, stress, P) : PG_OK;
 }
 
 /* ---- the rest ------------------------------------------------------------------------------------------ */

@@ -29,7 +29,7 @@ pg_status bond_force_energy_create (bond_force *b)
     PG_ALLOC (b->critical, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
-        b->critical[i] = c->never || p->exempt[PG_NODES][i] ? INFINITY
+        b->critical[i] = c->never || p->bonds.exempt[PG_NODES][i] ? INFINITY
                                                             : limit_at (c, pg_cloud_ratio (&p->cloud, i));
     }
 done:

@@ -57,7 +57,7 @@ static void judge_by (const judging *s, const batch *all, int material)
     pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL,
                            .shear = s->b->theory->strain ? shear : NULL,
                            .bending = s->b->theory->strain ? bending : NULL };
-    if (n) take_worse (s, &p->limit[material], &m, some);
+    if (n) take_worse (s, &p->at.limit[material], &m, some);
 }
 
 /* Judges a full batch, or what is left of it, by the laws that it holds, and empties it. */
@@ -94,8 +94,8 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
     const bond_force *b = s->b;
-    const unsigned char *exempt = b->problem->exempt[PG_NODES];
-    const int *material = b->problem->limit_of[PG_NODES];
+    const unsigned char *exempt = b->problem->bonds.exempt[PG_NODES];
+    const int *material = b->problem->at.limit_of[PG_NODES];
     point_bonds bonds;
     batch all = { .n = 0 };
     for (size_t i = first; i < last; i++) {

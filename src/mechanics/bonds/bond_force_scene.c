@@ -131,9 +131,9 @@ pg_status bond_force_read (pg_problem *p, const pg_scene *scene, bond_force_chec
     pg_sum_rule rule;
     int lattice;
     char why[256];
-    p->integration = pg_integration_at_nodes ();
+    p->form.integration = pg_integration_at_nodes ();
     PG_TRY (on_lattice (p, &lattice));
-    p->method->rule (&rule, scene, p->mode, &p->approx, p->cloud.h, lattice);
+    p->method->rule (&rule, scene, p->mode, &p->form.approx, p->cloud.h, lattice);
     check (p, scene, &rule);
     if (!lattice && rule.partial == PG_PARTIAL_OVERLAP)
         pg_scene_fault (
@@ -174,10 +174,10 @@ static void refuse_fields (const pg_problem *p, const pg_scene *scene)
         state = p->sums->rule.state && !p->sums->rule.beams;
     pg_evaluation how = p->sums->rule.evaluation;
     if (how != PG_EVALUATE_STENCIL && how != PG_EVALUATE_FFT) return;
-    for (size_t m = 0; p->vary && m < p->nmaterial; m++)
+    for (size_t m = 0; p->at.vary && m < p->nmaterial; m++)
         for (int k = 0; k < PG_OF_COUNT; k++) {
             int stiff = k == PG_OF_STIFFNESS;
-            if (!p->vary[m].of[k] || (stiff ? state && at_points : at_points)) continue;
+            if (!p->at.vary[m].of[k] || (stiff ? state && at_points : at_points)) continue;
             pg_scene_fault (scene, "method.evaluation",
                             "%s of material %.40s is an expression of place, and bonds must all be alike for "
                             "this: use list or auto%s",
@@ -234,12 +234,12 @@ pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_
  * spacings, +4.5 % at 4, +5.5 % at 5, half of that at 40. */
 double bond_force_tip_offset (const pg_problem *p)
 {
-    double m = p->approx.horizon / p->cloud.h;
+    double m = p->form.approx.horizon / p->cloud.h;
     return m < 4 ? 0.40 + 0.02 * (fmax (m, 3) - 3) : 0.42 + 0.08 * (fmin (m, 5) - 4);
 }
 
 /* One line for the plan. */
 void bond_force_words (const pg_problem *p, char *text, size_t size)
 {
-    snprintf (text, size, "force %s, %s kernel", p->method->name, p->approx.kernel->name);
+    snprintf (text, size, "force %s, %s kernel", p->method->name, p->form.approx.kernel->name);
 }

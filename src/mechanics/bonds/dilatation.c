@@ -13,10 +13,10 @@ static pg_status count_bonds (bond_force *b)
     pg_status status = PG_OK;
     pg_state *fresh = NULL;
     size_t all = b->family->start[b->n];
-    if (b->problem->cracks.n == 0) return PG_OK;
+    if (b->problem->crack.given.n == 0) return PG_OK;
     PG_TRY (pg_state_create (&fresh, b->problem, b->dim));
     PG_ALLOC (b->dilatation->counted, all);
-    memcpy (b->dilatation->counted, fresh->alive + b->problem->first_bond[PG_NODES], all);
+    memcpy (b->dilatation->counted, fresh->alive + b->problem->bonds.first[PG_NODES], all);
 done:
     pg_state_free (&fresh);
     return status;

@@ -269,7 +269,7 @@ static pg_status find_whole (bond_force *b, pg_couplings *out)
     const pg_sums *sums = b->problem->sums;
     size_t i = 0, n = sums->stencil.n;
     int *node = NULL;
-    if (!n || !sums->ordered || sums->share || sums->family_volume || b->problem->nlaw > 1) return PG_OK;
+    if (!n || !sums->ordered || sums->share || sums->family_volume || b->problem->at.nlaw > 1) return PG_OK;
     pg_parallel (b->threads, b->n, compare_points, b);
     while (i < b->n && !b->dilatation->rows->uniform[i]) i++;
     if (i == b->n) return PG_OK;

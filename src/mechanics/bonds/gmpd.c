@@ -155,8 +155,8 @@ static pg_status limits (const pg_problem *p, size_t material, pg_criterion_sett
 {
     pg_status status = PG_OK;
     const pg_material *m = &p->material[material];
-    const pg_kernel *kernel = p->approx.kernel;
-    double axial, shear, E, nu, dilation, beside, h = p->approx.horizon, t = p->cloud.thickness;
+    const pg_kernel *kernel = p->form.approx.kernel;
+    double axial, shear, E, nu, dilation, beside, h = p->form.approx.horizon, t = p->cloud.thickness;
     PG_TRY (bond_force_limits (p, material, s));
     micropolar_split (p, &p->material[material], &E, &nu, &dilation);
     PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, kernel, h, E, nu, t));
@@ -183,10 +183,10 @@ static void check_moments (const pg_problem *p, const pg_scene *scene)
 {
     const int *material = p->block[PG_NODES];
     char path[64];
-    for (size_t i = 0; i < p->nload; i++) {
-        const pg_set *set = p->load[i].set;
+    for (size_t i = 0; i < p->boundary.nload; i++) {
+        const pg_set *set = p->boundary.load[i].set;
         size_t k = 0;
-        if (p->load[i].kind != PG_MOMENT) continue;
+        if (p->boundary.load[i].kind != PG_MOMENT) continue;
         while (k < set->npoint && bears_shear (p, material[set->point[k]])) k++;
         if (k == set->npoint) continue;
         snprintf (path, sizeof path, "boundary[%zu].moment", i);

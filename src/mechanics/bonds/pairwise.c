@@ -129,9 +129,9 @@ static pg_status create (bond_force *b)
     const pg_sum_rule *rule = &p->sums->rule;
     PG_ALLOC (own->modulus, b->n);
     for (size_t i = 0; i < b->n; i++) {
-        int law = p->law_of[PG_NODES][i];
-        double E = p->law[law].modulus;
-        if (i > 0 && law == p->law_of[PG_NODES][i - 1]) own->modulus[i] = own->modulus[i - 1];
+        int law = p->at.law_of[PG_NODES][i];
+        double E = p->at.law[law].modulus;
+        if (i > 0 && law == p->at.law_of[PG_NODES][i - 1]) own->modulus[i] = own->modulus[i - 1];
         else
             own->modulus[i] = p->sums->calibration
                               * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);

@@ -27,13 +27,15 @@ static void claim (const point_boundary *s, const unsigned char *idle, int *by)
     size_t stride = (size_t) s->stride, dim = (size_t) s->dim;
     for (size_t i = 0; i < s->n * stride; i++)
         by[i] = idle && idle[i / stride] && i % stride >= dim ? IDLE : FREE;
-    for (size_t l = p->nload; l-- > 0;)                /* the first entry wins */
-        for (int k = 0; k < pg_load_components (&p->load[l], s->dim); k++)
-            for (size_t i = 0; prescribes (&p->load[l], k) && i < p->load[l].set->npoint; i++)
-                by[(size_t) p->load[l].set->point[i] * stride + (size_t) (boundary_first (s,
-                        &p->load[l]) + k)] =
+    for (size_t l = p->boundary.nload; l-- > 0;)                /* the first entry wins */
+        for (int k = 0; k < pg_load_components (&p->boundary.load[l], s->dim); k++)
+            for (size_t i = 0; prescribes (&p->boundary.load[l], k) && i < p->boundary.load[l].set->npoint;
+                 i++)
+                by[(size_t) p->boundary.load[l].set->point[i] * stride + (size_t) (boundary_first (s,
+                        &p->boundary.load[l]) + k)] =
                     (int) l;
-    for (size_t l = 0; l < p->nload; l++) if (p->load[l].symmetry) hold_rotations (s, &p->load[l], by);
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (p->boundary.load[l].symmetry) hold_rotations (s, &p->boundary.load[l], by);
 }
 
 /* Supports ascending by unknown, and T, whose columns are the unknowns that remain: a selection, with one
@@ -49,15 +51,16 @@ pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle)
     for (size_t i = 0; i < ndof; i++) s->nsupport += by[i] != FREE;
     PG_ALLOC (s->support, s->nsupport);
     PG_ALLOC (s->goal, s->nsupport);
-    PG_ALLOC (s->factor, p->nload);
-    PG_ALLOC (s->separates, p->nload);
-    for (size_t l = 0; l < p->nload; l++)
-        s->separates[l] = pg_load_prescribes (&p->load[l]) && pg_load_separates (&p->load[l]);
+    PG_ALLOC (s->factor, p->boundary.nload);
+    PG_ALLOC (s->separates, p->boundary.nload);
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        s->separates[l] = pg_load_prescribes (&p->boundary.load[l])
+                          && pg_load_separates (&p->boundary.load[l]);
     size_t at = 0;
     for (size_t i = 0; i < ndof; i++) {
         if (by[i] == FREE) continue;
         size_t point = i / (size_t) s->stride;
-        const pg_load *load = by[i] >= 0 ? &p->load[by[i]] : NULL;
+        const pg_load *load = by[i] >= 0 ? &p->boundary.load[by[i]] : NULL;
         int k = (int) (i % (size_t) s->stride) - (load ? boundary_first (s, load) : s->dim);
         s->support[at] = (boundary_support) { i, point, load ? by[i] : -1, k };
         s->goal[at++] = load ? pg_load_pattern (load, k, s->dim, p->cloud.x + point * (size_t) s->dim)
@@ -84,17 +87,17 @@ done:
 static void find_goals (const point_boundary *s, double t, int dof, double *out)
 {
     const pg_problem *p = s->problem;
-    for (size_t l = 0; l < p->nload; l++)
-        if (s->separates[l]) s->factor[l] = pg_load_factor (&p->load[l], t);
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (s->separates[l]) s->factor[l] = pg_load_factor (&p->boundary.load[l], t);
     for (size_t k = 0; k < s->nsupport; k++) {
         const boundary_support *q = &s->support[k];
         double *goal = out + (dof ? q->dof : k);
         if (q->load < 0) *goal = 0;
         else if (s->separates[q->load]) *goal = s->goal[k] * s->factor[q->load];
         else
-            *goal = pg_load_value (&p->load[q->load], q->component, s->dim,
+            *goal = pg_load_value (&p->boundary.load[q->load], q->component, s->dim,
                                    p->cloud.x + q->point * (size_t) s->dim, t)
-                    * boundary_unit (s, &p->load[q->load]);
+                    * boundary_unit (s, &p->boundary.load[q->load]);
     }
 }
 
@@ -116,9 +119,9 @@ pg_status boundary_create (point_boundary *s, const pg_problem *problem, int str
         .problem = problem, .dim = problem->dim, .stride = stride, .length = length, .n = problem->cloud.n
     };
     PG_TRY (boundary_make_supports (s, idle));
-    PG_ALLOC (s->load, problem->nload);
-    for (size_t l = 0; l < problem->nload; l++)
-        if (!pg_load_prescribes (&problem->load[l]) && problem->load[l].kind != PG_SPRING)
+    PG_ALLOC (s->load, problem->boundary.nload);
+    for (size_t l = 0; l < problem->boundary.nload; l++)
+        if (!pg_load_prescribes (&problem->boundary.load[l]) && problem->boundary.load[l].kind != PG_SPRING)
             PG_TRY (boundary_make_load (s, &s->load[s->nload++], (int) l));
     PG_TRY (boundary_make_springs (s));
 done:

@@ -9,7 +9,7 @@
  * times a factor of t, else its values at t. A pressure has one component, along the normal. */
 static void evaluate (const point_boundary *s, boundary_load *l, double t)
 {
-    const pg_load *load = &s->problem->load[l->load];
+    const pg_load *load = &s->problem->boundary.load[l->load];
     int pressure = load->kind == PG_PRESSURE;
     size_t dim = (size_t) l->components;
     double unit = boundary_unit (s, load);
@@ -31,9 +31,9 @@ static void evaluate (const point_boundary *s, boundary_load *l, double t)
 pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load)
 {
     pg_status status = PG_OK;
-    l->load = load, l->separates = pg_load_separates (&s->problem->load[load]), l->time = NAN;
-    l->first = boundary_first (s, &s->problem->load[load]),
-    l->components = pg_load_components (&s->problem->load[load], s->dim);
+    l->load = load, l->separates = pg_load_separates (&s->problem->boundary.load[load]), l->time = NAN;
+    l->first = boundary_first (s, &s->problem->boundary.load[load]),
+    l->components = pg_load_components (&s->problem->boundary.load[load], s->dim);
     PG_TRY (boundary_shares (l, s, load));
     PG_ALLOC (l->pattern, l->npoint * (size_t) l->components);
     if (!l->separates) goto done;
@@ -48,7 +48,7 @@ done:
  * per t. */
 double boundary_bring_to (const point_boundary *s, boundary_load *l, double t)
 {
-    if (l->separates) return pg_load_factor (&s->problem->load[l->load], t);
+    if (l->separates) return pg_load_factor (&s->problem->boundary.load[l->load], t);
     if (!(l->time == t)) evaluate (s, l, t);
     return 1;
 }

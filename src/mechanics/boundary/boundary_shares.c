@@ -221,7 +221,7 @@ done:
 pg_status boundary_shares (boundary_load *out, point_boundary *s, int load)
 {
     pg_status status = PG_OK;
-    const pg_load *l = &s->problem->load[load];
+    const pg_load *l = &s->problem->boundary.load[load];
     gathering g = { .out = out };
     PG_ALLOC (g.index, s->n);
     for (size_t i = 0; i < s->n; i++) g.index[i] = -1;

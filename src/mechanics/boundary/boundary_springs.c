@@ -9,13 +9,13 @@ pg_status boundary_make_springs (point_boundary *s)
     pg_status status = PG_OK;
     const pg_problem *p = s->problem;
     size_t count = 0, stride = (size_t) s->stride;
-    for (size_t l = 0; l < p->nload; l++)
-        if (p->load[l].kind == PG_SPRING) count += p->load[l].set->npoint * (size_t) s->dim;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (p->boundary.load[l].kind == PG_SPRING) count += p->boundary.load[l].set->npoint * (size_t) s->dim;
     if (count == 0) goto done;
     PG_ALLOC (s->spring, count);
     PG_ALLOC (s->hold, s->n * stride);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         for (size_t i = 0; load->kind == PG_SPRING && i < load->set->npoint; i++)
             for (int k = 0; k < s->dim; k++) {
                 double stiffness = load->stiffness[k] * pg_load_share (load, i);
@@ -32,7 +32,7 @@ done:
 /* Where the other end of a spring is, m. */
 double boundary_spring_goal (const point_boundary *s, const boundary_spring *q, double t)
 {
-    const pg_load *load = &s->problem->load[q->load];
+    const pg_load *load = &s->problem->boundary.load[q->load];
     const double *x = pg_load_site (load, s->problem->cloud.x + q->point * (size_t) s->dim);
     return pg_load_value (load, q->component, s->dim, x, t);
 }

@@ -43,7 +43,7 @@ static int sees (void *context, size_t q, int node)
     }
     for (size_t k = 0; k < dim; k++) eye[k] = x[k] + away * normal[k];
     return !pg_cracks_cut (l->cracks, eye, to, pg_cloud_same (&p->cloud))
-           && !pg_cracks_cut (&p->slots, eye, to, pg_cloud_same (&p->cloud));
+           && !pg_cracks_cut (&p->crack.slots, eye, to, pg_cloud_same (&p->cloud));
 }
 
 static void look (void *context, size_t first, size_t last, int thread)

@@ -9,13 +9,13 @@ static void add_reaction (const point_boundary *s, double *reaction, int load, i
                           double force)
 {
     const pg_problem *p = s->problem;
-    const pg_load *l = &p->load[load];
+    const pg_load *l = &p->boundary.load[load];
     double unit = boundary_unit (s, l);
     if (l->kind == PG_MOMENT) unit = 1 / unit;
     reaction[3 * load + component] += force * unit;
     if (!pg_load_rotates (l))
         pg_load_add_moment (l, s->dim, p->cloud.x + point * (size_t) s->dim, component, force,
-                            reaction + 3 * (p->nload + (size_t) load));
+                            reaction + 3 * (p->boundary.nload + (size_t) load));
 }
 
 /* Arrays are sized on the first call; pairs of supports come first, those of loads follow, those of
@@ -32,9 +32,9 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
         out->npair = count;
         PG_ALLOC (out->force, count);
         PG_ALLOC (out->displacement, count);
-        PG_ALLOC (out->reaction, PG_REACTIONS * s->problem->nload);
+        PG_ALLOC (out->reaction, PG_REACTIONS * s->problem->boundary.nload);
     }
-    memset (out->reaction, 0, PG_REACTIONS * s->problem->nload * sizeof *out->reaction);
+    memset (out->reaction, 0, PG_REACTIONS * s->problem->boundary.nload * sizeof *out->reaction);
     boundary_goals (s, t, out->displacement);
     for (size_t k = 0; k < s->nsupport; k++) {
         const boundary_support *q = &s->support[k];

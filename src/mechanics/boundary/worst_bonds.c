@@ -12,8 +12,8 @@ pg_status pg_worst_bonds (const pg_problem *p, const pg_state *state, const doub
     double most = 0;
     over->n = 0;
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &p->rows[set].family;
-        size_t base = p->first_bond[set];
+        const pg_family *f = &p->bonds.rows[set].family;
+        size_t base = p->bonds.first[set];
         for (size_t k = 0; k < f->n; k++)
             for (size_t i = base + f->start[k]; i < base + f->start[k + 1]; i++) {
                 if (!(utilisation[i] > 0) || !pg_problem_owns (p, set, k)) continue;

@@ -92,7 +92,7 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     g->problem = problem, g->options = problem->options, g->dim = problem->dim,
         g->nv = pg_voigt_size (problem->dim),
     g->threads = problem->threads, g->n = problem->cloud.n;
-    g->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
+    g->bulk = problem->form.integration->at_nodes ? PG_NODES : PG_POINTS;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_TRY (create_set (g, s));
     PG_TRY (galerkin_consistent_create (g));
     PG_ALLOC (g->work, g->n * (size_t) g->dim);
@@ -208,7 +208,7 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     PG_TRY (galerkin_sight_ready (g, 0));
     memset (residual, 0, ndof * sizeof *residual);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        if (s == g->bulk || s == PG_FACETS || g->supports.npenalty || g->problem->nload)
+        if (s == g->bulk || s == PG_FACETS || g->supports.npenalty || g->problem->boundary.nload)
             galerkin_measure (g, s, d);
     galerkin_bulk_force (g, d, residual);
     inside = galerkin_squared (g, residual);
@@ -281,9 +281,9 @@ static int boundary_tells (const galerkin *g, const pg_work_balance *out, int *n
 {
     int points = slaves_of (g) > 0;
     *nodes = g->supports.npenalty > 0;
-    for (size_t l = 0; l < g->problem->nload; l++) {
-        pg_load_kind kind = g->problem->load[l].kind;
-        points |= kind == PG_BODY_FORCE || g->problem->load[l].cracks;
+    for (size_t l = 0; l < g->problem->boundary.nload; l++) {
+        pg_load_kind kind = g->problem->boundary.load[l].kind;
+        points |= kind == PG_BODY_FORCE || g->problem->boundary.load[l].cracks;
         *nodes |= kind == PG_POINT_FORCE;
     }
     return out->force && !points && !g->dilatation && !galerkin_eigen_pairs (g);
@@ -291,7 +291,7 @@ static int boundary_tells (const galerkin *g, const pg_work_balance *out, int *n
 
 static void work_of_boundary (galerkin *g, double t, const double *d, int nodes, pg_work_balance *out)
 {
-    memset (out->reaction, 0, PG_REACTIONS * g->problem->nload * sizeof *out->reaction);
+    memset (out->reaction, 0, PG_REACTIONS * g->problem->boundary.nload * sizeof *out->reaction);
     galerkin_measure (g, PG_FACETS, d);
     if (nodes) galerkin_measure (g, PG_NODES, d);
     galerkin_boundary_work_balance (g, t, d, out);
@@ -310,9 +310,9 @@ static pg_status work_of_residual (galerkin *g, double t, const double *d, const
         out->npair = galerkin_boundary_pairs (g) + slaves_of (g) + galerkin_eigen_pairs (g);
         PG_ALLOC (out->force, out->npair);
         PG_ALLOC (out->displacement, out->npair);
-        PG_ALLOC (out->reaction, PG_REACTIONS * g->problem->nload);
+        PG_ALLOC (out->reaction, PG_REACTIONS * g->problem->boundary.nload);
     }
-    memset (out->reaction, 0, PG_REACTIONS * g->problem->nload * sizeof *out->reaction);
+    memset (out->reaction, 0, PG_REACTIONS * g->problem->boundary.nload * sizeof *out->reaction);
     galerkin_eigen_at (g, t);
     for (int s = 0; s < PG_BOND_SETS; s++) galerkin_measure (g, s, d);
     size_t at = galerkin_boundary_work_balance (g, t, d, out);
@@ -396,7 +396,7 @@ static pg_status jump (void *self, const pg_state *state, size_t n, const double
 {
     pg_status status = PG_OK;
     const galerkin *g = self;
-    PG_TRY (jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, 0, out));
+    PG_TRY (jump_rows (g->problem, &g->problem->form.approx, state, n, x, normal, radius, 0, out));
     PG_TRY (galerkin_ended_jump (g, n, x, normal, out));
 done:
     return status;
@@ -406,7 +406,7 @@ static pg_status trace (void *self, const pg_state *state, size_t n, const doubl
                         pg_jump_rows *out)
 {
     const galerkin *g = self;
-    return trace_rows (g->problem, &g->problem->approx, state, n, x, normal, out);
+    return trace_rows (g->problem, &g->problem->form.approx, state, n, x, normal, out);
 }
 
 const pg_force_type pg_force_galerkin = {

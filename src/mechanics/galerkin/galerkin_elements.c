@@ -126,7 +126,7 @@ static const double *scaled (element_list *b, size_t width, double share)
 /* lambda of point p where the dilatation is projected; else 0: the material has it. */
 static double projected_lambda (const element_list *b, size_t p)
 {
-    return b->g->dilatation ? b->g->problem->patches->lambda[b->g->material[b->set][p]] : 0;
+    return b->g->dilatation ? b->g->problem->form.patches->lambda[b->g->material[b->set][p]] : 0;
 }
 
 /* Where the dilatation is projected K has it as means over patches, which the elements cannot follow: with
@@ -345,7 +345,7 @@ static const double *spring_matrix (element_list *b, size_t p, size_t m, const i
     const galerkin *g = b->g;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim, width = m * dim;
-    const double *normal = g->problem->facet_normal + p * dim;
+    const double *normal = g->problem->bonds.facet_normal + p * dim;
     double phi[MOST_NODES], depth = INFINITY, between = galerkin_plain (g, PG_FACETS, p)->D[0] * r->weight[p];
     facet_shape (g, p, m, node, phi);
     for (size_t a = 0; a < m; a++) {
@@ -407,7 +407,7 @@ done:
  * what it leaves of the displacement of the node would be multiplied by it. */
 int elements_stiff (const galerkin *g, const constraint *q)
 {
-    return g->problem->load[q->load].penalty > 30;
+    return g->problem->boundary.load[q->load].penalty > 30;
 }
 
 /* Columns of W: the shape functions at the nodes that stiff penalties hold. */
@@ -462,7 +462,7 @@ static pg_status width_of_supports (const pg_problem *p, double *width)
     double *all = NULL;
     PG_ALLOC (all, c->n);
     for (size_t i = 0; i < c->n; i++)
-        all[i] = p->approx.horizon * pg_cloud_ratio (c, i)
+        all[i] = p->form.approx.horizon * pg_cloud_ratio (c, i)
                  / pow (c->volume[i] / c->thickness, 1.0 / c->dim);
     pg_sort (all, c->n, sizeof *all, pg_ascending_numbers);
     *width = all[c->n / 4];
@@ -484,10 +484,10 @@ static pg_status choose_polynomial (const pg_problem *p, pg_elements *out)
     };
     enum { IRREGULAR = sizeof choice / sizeof *choice - 1 };
     pg_status status = PG_OK;
-    double width = p->approx.horizon / p->cloud.h;
+    double width = p->form.approx.horizon / p->cloud.h;
     size_t k = 0;
-    while (choice[k].order != p->approx.order || width > choice[k].wide) k++;
-    if (p->approx.order == 1 && !p->lattice.dim && !p->cloud.metric) {
+    while (choice[k].order != p->form.approx.order || width > choice[k].wide) k++;
+    if (p->form.approx.order == 1 && !p->lattice.dim && !p->cloud.metric) {
         PG_TRY (width_of_supports (p, &width));
         if (width > choice[1].wide && width <= choice[IRREGULAR].wide) k = IRREGULAR;
     }
@@ -519,7 +519,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     PG_TRY (pg_block_create (&out->Q, g->n, g->dim, &b.list, g->threads));
     PG_TRY (add_elements (&b, &out->Q));
     add_penalties (g, &out->Q);
-    if (!g->problem->approx.type->interpolates) PG_TRY (elements_values (g, &out->Q, &out->N));
+    if (!g->problem->form.approx.type->interpolates) PG_TRY (elements_values (g, &out->Q, &out->N));
     PG_TRY (choose_polynomial (g->problem, out));
     out->spacing = (b.classes ? 2 : 1) * g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
     for (int k = 0; k < g->dim && g->problem->cloud.regular; k++) out->lattice[k] = g->problem->cloud.step[k];

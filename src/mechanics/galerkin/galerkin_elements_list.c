@@ -34,7 +34,8 @@ int elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
 {
     int j = r->family.node[e];
     const pg_cloud *c = &g->problem->cloud;
-    double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (c, (size_t) j), bond[3] = { 0 };
+    double support = 0.999 * g->problem->form.approx.horizon * pg_cloud_ratio (c, (size_t) j),
+           bond[3] = { 0 };
     for (int k = 0; k < g->dim; k++) bond[k] = place (g, j)[k] - r->x[p * (size_t) g->dim + (size_t) k];
     return !(r->w[e + pg_rows_offset (r, p)] > 0) && r->own[p] != j
            && pg_cloud_length2 (c, (size_t) j, bond) < support * support;
@@ -378,7 +379,7 @@ done:
 pg_status elements_find (element_list *b)
 {
     pg_status status = PG_OK;
-    if (b->g->problem->integration->at_nodes) PG_TRY (list_nodes (b));
+    if (b->g->problem->form.integration->at_nodes) PG_TRY (list_nodes (b));
     else if (at_centres (b->g->problem)) PG_TRY (list_boxes (b));
     else PG_TRY (list_cells (b));
     PG_TRY (list_supports (b));

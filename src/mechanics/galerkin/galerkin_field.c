@@ -28,7 +28,7 @@ static pg_status damage (galerkin *g, const pg_state *state, double *value)
     memset (value, 0, g->n * sizeof *value);
     for (int set = PG_NODES; set <= PG_POINTS; set++) {
         const pg_family *f = &g->rows[set].family;
-        const unsigned char *alive = state->alive + g->problem->first_bond[set];
+        const unsigned char *alive = state->alive + g->problem->bonds.first[set];
         for (size_t p = 0; p < f->n; p++) {
             size_t first = f->start[p], last = f->start[p + 1];
             const unsigned char *dead = memchr (alive + first, 0, last - first);

@@ -69,8 +69,8 @@ static pg_status make_hats (galerkin *g, pg_elements *out)
     const pg_rows *r = &g->rows[PG_NODES];
     const pg_problem *p = g->problem;
     pg_hats_setting s = { .dim = g->dim, .threads = g->threads, .n = g->n, .x = p->cloud.x,
-                          .step = coarse * p->approx.horizon,
-                          .rows = { .context = g, .reach = p->approx.horizon, .row = seen_by } };
+                          .step = coarse * p->form.approx.horizon,
+                          .rows = { .context = g, .reach = p->form.approx.horizon, .row = seen_by } };
     for (size_t i = 0; i < g->n; i++)
         if (r->family.start[i + 1] - r->family.start[i] > s.rows.widest)
             s.rows.widest = r->family.start[i + 1] - r->family.start[i];

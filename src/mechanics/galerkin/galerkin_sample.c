@@ -60,7 +60,7 @@ static int broken (const sampling *s, int set, size_t point, size_t e)
 {
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[set];
-    if (s->state->alive[g->problem->first_bond[set] + e] || r->family.node[e] == r->own[point]) return 0;
+    if (s->state->alive[g->problem->bonds.first[set] + e] || r->family.node[e] == r->own[point]) return 0;
     return !cut (s, r->x + point * (size_t) g->dim, node_at (g, r->family.node[e]));
 }
 
@@ -83,7 +83,7 @@ static int view (const sampling *s, int set, size_t point, int j)
         else high = middle;
     }
     if (low == f->start[point + 1] || f->node[low] != j) return UNKNOWN;
-    if (s->state->alive[s->g->problem->first_bond[set] + low]) return ALIVE;
+    if (s->state->alive[s->g->problem->bonds.first[set] + low]) return ALIVE;
     return broken (s, set, point, low) ? LOST : CUT;
 }
 
@@ -199,10 +199,10 @@ static void look_over (sampling *s)
     const pg_rows *bulk = &g->rows[g->bulk];
     s->intact = pg_state_cracks (p, s->state)->n == 0;
     for (int set = PG_NODES; set <= PG_POINTS && s->intact; set++) {
-        size_t bonds = p->first_bond[set + 1] - p->first_bond[set];
-        s->intact = !bonds || !memchr (s->state->alive + p->first_bond[set], 0, bonds);
+        size_t bonds = p->bonds.first[set + 1] - p->bonds.first[set];
+        s->intact = !bonds || !memchr (s->state->alive + p->bonds.first[set], 0, bonds);
     }
-    s->uniform = s->intact && p->nlaw == 1;
+    s->uniform = s->intact && p->at.nlaw == 1;
     for (size_t q = 0; q < bulk->n && s->uniform; q++) s->uniform = bulk->grade[q] == PG_GRADE_FULL;
 }
 
@@ -327,9 +327,9 @@ static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
     size_t bonds, dim = (size_t) s->g->dim;
-    pg_approx a = p->approx;
+    pg_approx a = p->form.approx;
     a.refined = 0;                                     /* places that are alike have the same field */
-    int about_nodes = p->approx.type->interpolates || !s->intact;
+    int about_nodes = p->form.approx.type->interpolates || !s->intact;
     if (about_nodes) find_nodes (s->g, n, x, own);
     PG_TRY (pg_rows_place (&s->rows, s->g->places.search, &p->cloud, n, x, NULL, about_nodes ? own : NULL,
                            NULL,
@@ -467,7 +467,7 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     int *own = NULL;
     look_over (&s);
     if (!g->places.search)
-        PG_TRY (pg_rows_search (&g->places.search, &g->problem->approx, &g->problem->cloud));
+        PG_TRY (pg_rows_search (&g->places.search, &g->problem->form.approx, &g->problem->cloud));
     if (!g->places.near_point) PG_TRY (pg_nearest_create (&g->places.near_point, g->dim, bulk->n, bulk->x));
     if (!g->places.near_node)
         PG_TRY (pg_nearest_create (&g->places.near_node, g->dim, g->n, g->problem->cloud.x));

@@ -72,7 +72,7 @@ static pg_status find_near (batch *b, const galerkin *g)
 {
     pg_status status = PG_OK;
     const pg_rows *rows[2] = { &g->rows[PG_NODES], &g->rows[g->bulk] };
-    double more = near_bonds * g->problem->approx.horizon;
+    double more = near_bonds * g->problem->form.approx.horizon;
     for (int s = 0; s < (g->bulk == PG_NODES ? 1 : 2); s++) {
         for (size_t i = 0; i < rows[s]->n; i++) b->nnear[s] += (size_t) within (b, rows[s]->x + 2*i, more);
         PG_ALLOC (b->near[s], b->nnear[s] + 1);
@@ -111,13 +111,13 @@ static pg_status look_around (surroundings *out, const batch *b, const galerkin 
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     const pg_cracks *cracks = pg_state_cracks (p, state);
-    double more = near_cracks * p->approx.horizon, box[4];
+    double more = near_cracks * p->form.approx.horizon, box[4];
     int sets[2] = { PG_NODES, g->bulk };
     out->n = 0;
     for (int s = 0; s < 2; s++)
         for (size_t k = 0; k < b->nnear[s]; k++) {
             const size_t *start = g->rows[sets[s]].family.start + b->near[s][k];
-            PG_TRY (add (out, start[1] - start[0], state->alive + p->first_bond[sets[s]] + start[0]));
+            PG_TRY (add (out, start[1] - start[0], state->alive + p->bonds.first[sets[s]] + start[0]));
         }
     for (size_t k = 0; k < cracks->n; k++) {
         pg_crack_box (&cracks->crack[k], 2, box);
@@ -188,7 +188,7 @@ static void make_room (galerkin_again *a)
 /* Is what every place asked within reach? */
 static int asks_near (const galerkin *g, size_t n, const double *x, const size_t *at)
 {
-    double reach = near_bonds * g->problem->approx.horizon;
+    double reach = near_bonds * g->problem->form.approx.horizon;
     for (size_t i = 0; i < n; i++) {
         const double *q = g->rows[g->bulk].x + 2 * at[i];
         if (!(hypot (q[0] - x[2*i], q[1] - x[2*i + 1]) < reach)) return 0;

@@ -68,11 +68,11 @@ static int lay (galerkin_alike *a, const pg_problem *p)
     a->dim = p->dim, a->block = 1, a->between = p->cloud.between;
     for (int k = 0; k < 3; k++) a->count[k] = a->width[k] = 1, a->first[k] = 0;
     for (int k = 0; k < a->dim; k++) {
-        double step = p->cloud.step[k], reach = p->approx.horizon / step * (1 + 1e-7), away;
+        double step = p->cloud.step[k], reach = p->form.approx.horizon / step * (1 + 1e-7), away;
         if (!(step > 0) || !(reach < 64)) return 0;
         a->low[k] = p->cloud.low[k], a->inverse[k] = 1 / step;
         /* A place at 0 <= f < 1 sees from f - reach to f + reach, with closed kernels the ends as well. */
-        long ends = p->approx.kernel->closed ? (long) ceil (reach) + 1 : (long) ceil (reach - 1e-6);
+        long ends = p->form.approx.kernel->closed ? (long) ceil (reach) + 1 : (long) ceil (reach - 1e-6);
         a->first[k] = 1 - ends, a->width[k] = 2 * ends;
         a->count[k] = vertex_of (a, k, p->cloud.high[k], &away) + 1 + 2 * (a->width[k] + 1);
         boxes *= (double) a->count[k];
@@ -135,7 +135,7 @@ pg_status galerkin_alike_create (galerkin_alike **out, const pg_problem *p)
     pg_status status = PG_OK;
     galerkin_alike *a = NULL;
     size_t vertices = 1;
-    if (!p->approx.congruent || p->cloud.size || p->approx.type->interpolates) return PG_OK;
+    if (!p->form.approx.congruent || p->cloud.size || p->form.approx.type->interpolates) return PG_OK;
     PG_ALLOC (a, 1);
     if (!lay (a, p)) goto done;
     for (int k = 0; k < a->dim; k++) vertices *= (size_t) a->count[k];

@@ -47,19 +47,19 @@ pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
     double cut = p->cells.cut != NULL;                 /* on any rank */
     PG_TRY (pg_ranks_most (1, &cut));
     int needed = p->cells.n > 0 && (cut > 0 || pg_problem_by_facets (p, scene));
-    p->integration = pg_integration_of (scene, needed);
-    if (needed && p->approx.order > 1 && !pg_scene_given (scene, "method.integration"))
+    p->form.integration = pg_integration_of (scene, needed);
+    if (needed && p->form.approx.order > 1 && !pg_scene_given (scene, "method.integration"))
         pg_problem_note (p,
                          "method.integration: %s, as the basis is quadratic; consistent is exact in cut "
                          "cells and along cracks and takes 3 to 7 times as long",
-                         p->integration->name);
-    p->approx.extrapolates = p->approx.refined = p->integration->consistent;
-    if (!p->integration->at_nodes && p->cells.n == 0)
+                         p->form.integration->name);
+    p->form.approx.extrapolates = p->form.approx.refined = p->form.integration->consistent;
+    if (!p->form.integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration",
                         "a body of explicit points has no background cells: use nodal, or give shapes as its "
                         "surface (body)");
     /* an expansion about the node itself does not resist what changes from node to node (theory D4) */
-    int wanted = p->approx.type->interpolates && p->integration->at_nodes;
+    int wanted = p->form.approx.type->interpolates && p->form.integration->at_nodes;
     int asked = strcmp (stabilization, "silling") == 0;
     if (asked && !wanted)
         pg_scene_fault (scene, "method.stabilization", "silling stabilises nosb with nodal integration");
@@ -84,7 +84,7 @@ static void check_elimination (const pg_problem *p, const pg_load *load, const p
 {
     char path[64];
     if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_TRANSFORMATION) return;
-    if (p->approx.type->interpolates || !pg_ranks_now ()) return;
+    if (p->form.approx.type->interpolates || !pg_ranks_now ()) return;
     snprintf (path, sizeof path, "boundary[%zu]", i);
     pg_scene_fault (scene, path, "%d ranks: essential: transformation couples all points of the set, which "
                     "one process alone can hold: use essential: nitsche or penalty, or division: matrices",
@@ -101,7 +101,7 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
     const char *how = pg_scene_given (scene, "boundary[%zu].essential", i)
                           ? pg_scene_text (scene, "boundary[%zu].essential", i)
                           : pg_scene_text (scene, "method.essential");
-    int eliminate = p->approx.type->interpolates;
+    int eliminate = p->form.approx.type->interpolates;
     int large = pg_set_inner (set)
                 || (pg_set_facets (set) == 0 && pg_set_points (set) > PG_MOST_ELIMINATED);
     load->essential = essential_of (how, pg_set_facets (set) > 0 && !eliminate);
@@ -120,8 +120,9 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
 double galerkin_support_stiffness (const pg_problem *p)
 {
     int any = 0;
-    for (size_t l = 0; l < p->nload; l++)
-        any |= pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        any |= pg_load_prescribes (&p->boundary.load[l])
+               && p->boundary.load[l].essential == PG_ESSENTIAL_NITSCHE;
     return any ? ((const galerkin_options *) p->options)->nitsche : 0;
 }
 
@@ -169,6 +170,7 @@ double galerkin_ghost_cells (const pg_scene *scene, double *beyond)
 /* One line for the plan. */
 void galerkin_words (const pg_problem *p, char *text, size_t size)
 {
-    snprintf (text, size, "%s, %s basis, %s kernel, %s integration", p->approx.type->name,
-              p->approx.order == 2 ? "quadratic" : "linear", p->approx.kernel->name, p->integration->name);
+    snprintf (text, size, "%s, %s basis, %s kernel, %s integration", p->form.approx.type->name,
+              p->form.approx.order == 2 ? "quadratic" : "linear", p->form.approx.kernel->name,
+              p->form.integration->name);
 }

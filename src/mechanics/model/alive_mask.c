@@ -10,9 +10,9 @@
 void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *point)
 {
     *set = 0;
-    while (bond >= p->first_bond[*set + 1]) ++*set;
-    const size_t *start = p->rows[*set].family.start;
-    size_t e = bond - p->first_bond[*set], lo = 0, hi = p->rows[*set].n;
+    while (bond >= p->bonds.first[*set + 1]) ++*set;
+    const size_t *start = p->bonds.rows[*set].family.start;
+    size_t e = bond - p->bonds.first[*set], lo = 0, hi = p->bonds.rows[*set].n;
     while (hi - lo > 1) {
         size_t mid = (lo + hi) / 2;
         if (start[mid] <= e) lo = mid;
@@ -28,10 +28,11 @@ static int far_from_cracks (const pg_problem *p, const pg_rows *rows, size_t q)
     double low[3], high[3];
     if (p->method->shape_functions || p->cloud.size) return 0;
     for (size_t k = 0, dim = (size_t) p->dim; k < dim; k++) {
-        low[k] = rows->x[dim * q + k] - 2 * p->approx.horizon;
-        high[k] = rows->x[dim * q + k] + 2 * p->approx.horizon;
+        low[k] = rows->x[dim * q + k] - 2 * p->form.approx.horizon;
+        high[k] = rows->x[dim * q + k] + 2 * p->form.approx.horizon;
     }
-    return !pg_cracks_near (pg_state_cracks (p, NULL), low, high) && !pg_cracks_near (&p->slots, low, high);
+    return !pg_cracks_near (pg_state_cracks (p, NULL), low, high)
+           && !pg_cracks_near (&p->crack.slots, low, high);
 }
 
 /* Can a crack cut any bond of point q? The box about its bonds tells, which spares most points of a body the
@@ -41,7 +42,7 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
     double low[3], high[3], slack = 10 * pg_cloud_same (&p->cloud); /* more than the tolerance of a cut */
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
     size_t dim = (size_t) p->dim;
-    if (cracks->n + p->slots.n == 0 || far_from_cracks (p, rows, q)) return 0;
+    if (cracks->n + p->crack.slots.n == 0 || far_from_cracks (p, rows, q)) return 0;
     for (size_t k = 0; k < dim; k++) low[k] = high[k] = rows->x[dim * q + k];
     for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
         for (size_t k = 0; k < dim; k++) {
@@ -49,21 +50,21 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
             low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
         }
     for (size_t k = 0; k < dim; k++) low[k] -= slack, high[k] += slack;
-    return pg_cracks_near (cracks, low, high) || pg_cracks_near (&p->slots, low, high);
+    return pg_cracks_near (cracks, low, high) || pg_cracks_near (&p->crack.slots, low, high);
 }
 
 int pg_bond_cut_first (const pg_problem *p, const double *x, const double *y)
 {
     double tolerance = pg_cloud_same (&p->cloud);
     return pg_cracks_cut (pg_state_cracks (p, NULL), x, y, tolerance)
-           || pg_cracks_cut (&p->slots, x, y, tolerance);
+           || pg_cracks_cut (&p->crack.slots, x, y, tolerance);
 }
 
 /* The mask at the start of a run: 0 where the segment of a bond meets a pre-crack. The bond of a point with
  * itself is never cut. */
 void pg_bonds_cut_at (const pg_problem *p, int set, size_t q, unsigned char *alive)
 {
-    const pg_rows *rows = &p->rows[set];
+    const pg_rows *rows = &p->bonds.rows[set];
     size_t dim = (size_t) p->dim, first = rows->family.start[q], m = rows->family.start[q + 1] - first;
     memset (alive, 1, m);
     if (!may_be_cut (p, rows, q)) return;
@@ -77,6 +78,6 @@ void pg_bonds_cut_at (const pg_problem *p, int set, size_t q, unsigned char *ali
 void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
 {
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++)
-            pg_bonds_cut_at (p, s, q, alive + p->first_bond[s] + p->rows[s].family.start[q]);
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++)
+            pg_bonds_cut_at (p, s, q, alive + p->bonds.first[s] + p->bonds.rows[s].family.start[q]);
 }

@@ -98,12 +98,13 @@ void pg_blocks_place (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
     size_t dim = (size_t) p->dim;
-    memcpy (x, p->rows[set].x + point * dim, dim * sizeof *x);
+    memcpy (x, p->bonds.rows[set].x + point * dim, dim * sizeof *x);
     if (set != PG_FACETS) return;
-    size_t cell = (size_t) c->facet_cell[p->rows[set].cell[point]], first = c->start[cell],
+    size_t cell = (size_t) c->facet_cell[p->bonds.rows[set].cell[point]], first = c->start[cell],
            corners = c->start[cell + 1] - first;
-    if (c->facet_kind[p->rows[set].cell[point]] == PG_CUT) {
-        for (size_t k = 0; k < dim; k++) x[k] -= pg_cloud_same (&p->cloud) * p->facet_normal[point * dim + k];
+    if (c->facet_kind[p->bonds.rows[set].cell[point]] == PG_CUT) {
+        for (size_t k = 0; k < dim; k++)
+            x[k] -= pg_cloud_same (&p->cloud) * p->bonds.facet_normal[point * dim + k];
         return;
     }
     const double *corner = c->x + first * dim;
@@ -118,7 +119,7 @@ void pg_blocks_place (const pg_problem *p, int set, size_t point, double *x)
  * node. */
 static int number_of (const pg_problem *p, int set, size_t point)
 {
-    int cell = p->part.mesh.n && set != PG_NODES ? p->rows[set].cell[point] : -1;
+    int cell = p->part.mesh.n && set != PG_NODES ? p->bonds.rows[set].cell[point] : -1;
     if (cell >= 0) return p->cells.block[set == PG_FACETS ? p->cells.facet_cell[cell] : cell];
     int node = set == PG_NODES ? (int) point : pg_bonds_nearest (p, set, point);
     return node < 0 ? -1 : p->cloud.block[node];
@@ -147,9 +148,9 @@ static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set,
     size_t dim = (size_t) p->dim, at = 0;
     for (size_t k = 0; k < dim; k++)
         at += (size_t) snprintf (place + at, sizeof place - at, "%s%.6g", k ? ", " : "",
-                                 p->rows[set].x[point * dim + k]);
+                                 p->bonds.rows[set].x[point * dim + k]);
     pg_scene_fault (scene, "blocks", "no entry claims %zu of %zu %s, the first at [%s] m", count,
-                    p->rows[set].n, kind_of_points[set], place);
+                    p->bonds.rows[set].n, kind_of_points[set], place);
 }
 
 /* Materials of all points: the last entry that claims a point decides. Entries that claim nothing, on any
@@ -160,7 +161,7 @@ static pg_status claim_all (entries *e, pg_problem *p, const pg_scene *scene)
     size_t first = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t nobody = 0;
-        for (size_t q = 0; q < p->rows[s].n; q++) {
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
             int material = claim (e, p, s, q);
             if (material < 0 && nobody++ == 0) first = q;
             p->block[s][q] = material < 0 ? 0 : material;
@@ -184,7 +185,7 @@ static void by_name (pg_problem *p, const pg_scene *scene)
     const pg_mesh *m = &p->part.mesh;
     int missing = 0;
     for (int s = 0; s < PG_BOND_SETS && !missing; s++)
-        for (size_t q = 0; q < p->rows[s].n && !missing; q++) {
+        for (size_t q = 0; q < p->bonds.rows[s].n && !missing; q++) {
             int block = number_of (p, s, q), material = -1;
             for (size_t k = 0; block >= 0 && k < p->nmaterial; k++)
                 if (!strcmp (p->material[k].name, m->blocks[block].name)) material = (int) k;
@@ -214,7 +215,7 @@ static void by_number (pg_problem *p, const pg_scene *scene)
             return;
         }
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++) {
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
             int number = number_of (p, s, q);
             p->block[s][q] = number < 0 ? 0 : number;
         }
@@ -228,7 +229,7 @@ static pg_status check_used (const pg_problem *p, const pg_scene *scene)
         char path[96];
         double used = 0;
         for (int s = 0; s < PG_BOND_SETS; s++)
-            for (size_t q = 0; q < p->rows[s].n && !(used > 0); q++) used += p->block[s][q] == (int) m;
+            for (size_t q = 0; q < p->bonds.rows[s].n && !(used > 0); q++) used += p->block[s][q] == (int) m;
         PG_TRY (pg_ranks_most (1, &used));
         snprintf (path, sizeof path, "materials.%.63s", p->material[m].name);
         if (!(used > 0)) pg_scene_fault (scene, path, "is used by no block");
@@ -243,7 +244,7 @@ pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     entries e = { 0 };
-    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->block[s], p->rows[s].n);
+    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->block[s], p->bonds.rows[s].n);
     if (pg_scene_given (scene, "blocks")) {
         PG_TRY (read_entries (&e, p, scene));
         PG_TRY (claim_all (&e, p, scene));

@@ -13,7 +13,7 @@ enum { PLACES = 4096 };
 static pg_status number_points (const pg_problem *p, int set, unsigned char *owned, int64_t *out)
 {
     pg_status status = PG_OK;
-    const pg_rows *r = &p->rows[set];
+    const pg_rows *r = &p->bonds.rows[set];
     const pg_cells *c = &p->cells;
     size_t dim = (size_t) p->dim, last = SIZE_MAX;
     int64_t place = 0, number = 0;
@@ -44,14 +44,14 @@ static pg_status number_held (pg_problem *p, int set)
 {
     pg_status status = PG_OK;
     const pg_subdomain *s = p->cloud.subdomain;
-    size_t n = p->rows[set].n;
+    size_t n = p->bonds.rows[set].n;
     if (!s) return PG_OK;
-    PG_ALLOC (p->held[set].owned, n);
-    PG_ALLOC (p->held[set].number, n);
-    if (set != PG_NODES) PG_TRY (number_points (p, set, p->held[set].owned, p->held[set].number));
+    PG_ALLOC (p->bonds.held[set].owned, n);
+    PG_ALLOC (p->bonds.held[set].number, n);
+    if (set != PG_NODES) PG_TRY (number_points (p, set, p->bonds.held[set].owned, p->bonds.held[set].number));
     else {
-        memcpy (p->held[set].owned, s->owned, n);
-        memcpy (p->held[set].number, s->number, n * sizeof *s->number);
+        memcpy (p->bonds.held[set].owned, s->owned, n);
+        memcpy (p->bonds.held[set].number, s->number, n * sizeof *s->number);
     }
 done:
     return status;
@@ -60,7 +60,7 @@ done:
 /* Of a node that of the whole body. */
 static size_t number_of (const pg_problem *p, int set, size_t point)
 {
-    return set == PG_NODES && p->held[set].number ? (size_t) p->held[set].number[point] : point;
+    return set == PG_NODES && p->bonds.held[set].number ? (size_t) p->bonds.held[set].number[point] : point;
 }
 
 /* Places that see too little although their supports are as wide as may be: those of this rank are told, the
@@ -107,11 +107,11 @@ static pg_status find_near (looking *l)
     PG_ALLOC (l->near, l->rows->n);
     for (size_t q = 0; q < l->rows->n; q++) {
         for (size_t k = 0; k < dim; k++) {
-            double reach = PG_WIDEST_SUPPORT * ratio * p->approx.horizon;
+            double reach = PG_WIDEST_SUPPORT * ratio * p->form.approx.horizon;
             low[k] = l->rows->x[q * dim + k] - reach, high[k] = l->rows->x[q * dim + k] + reach;
         }
         l->near[q] = pg_cracks_near (pg_state_cracks (p, NULL), low, high)
-                     || pg_cracks_near (&p->slots, low, high);
+                     || pg_cracks_near (&p->crack.slots, low, high);
     }
 done:
     return status;
@@ -134,7 +134,7 @@ static pg_status note_wide (pg_problem *p, looking *l)
     double wide = 0;
     for (size_t q = 0; r->wide && q < r->n && wide == 0; q++) wide = r->wide[q] > 1 && is_beside (l, q);
     PG_TRY (pg_cloud_sum (&p->cloud, 1, &wide));
-    if (wide > 0) p->wide_at_cracks = 1;
+    if (wide > 0) p->bonds.wide_at_cracks = 1;
 done:
     return status;
 }
@@ -147,16 +147,17 @@ static pg_status widen (pg_problem *p, int set)
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
     pg_widened w = { 0 };
-    looking l = { .p = p, .rows = &p->rows[set] };
-    int cracked = p->cracks.n + p->slots.n > 0;
+    looking l = { .p = p, .rows = &p->bonds.rows[set] };
+    int cracked = p->crack.given.n + p->crack.slots.n > 0;
     if (cracked) PG_TRY (find_near (&l));
-    PG_TRY (pg_rows_widen (&p->rows[set], &p->approx, &p->cloud, cracked ? sees : NULL, &l, p->threads, &w));
+    PG_TRY (pg_rows_widen (&p->bonds.rows[set], &p->form.approx, &p->cloud, cracked ? sees : NULL, &l,
+                           p->threads, &w));
     if (cracked && set != PG_FACETS) PG_TRY (note_wide (p, &l));
     size_t blind = w.nblind;
     w.nblind = 0;
     for (size_t k = 0; k < blind; k++)
         if (!cracked || set == PG_FACETS || !is_beside (&l, w.blind[k])) w.blind[w.nblind++] = w.blind[k];
-    tell_blind (p, what[set], &p->rows[set], &w, p->held[set].owned);
+    tell_blind (p, what[set], &p->bonds.rows[set], &w, p->bonds.held[set].owned);
 done:
     pg_free (w.blind), pg_free (l.near);
     return status;
@@ -169,8 +170,8 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
-    pg_rows *r = &p->rows[set];
-    pg_approx linear = p->approx;
+    pg_rows *r = &p->bonds.rows[set];
+    pg_approx linear = p->form.approx;
     char at[100];
     linear.order = 1;
     if (p->lattice.dim) return PG_OK;
@@ -179,7 +180,8 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
         PG_TRY (linear.type->evaluate (&linear, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n && status == PG_OK; q++) {
         int used = 0;
-        if (r->grade[q] < PG_GRADE_PROJECTED || (p->held[set].owned && !p->held[set].owned[q])) continue;
+        if (r->grade[q] < PG_GRADE_PROJECTED || (p->bonds.held[set].owned && !p->bonds.held[set].owned[q]))
+            continue;
         for (int k = 0; k < p->dim; k++)
             used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g",
                               r->x[q * (size_t) p->dim + (size_t) k]);
@@ -206,8 +208,8 @@ static pg_status make_nodes (pg_problem *p, const pg_family_search *search, cons
     int *own = NULL;
     PG_ALLOC (own, p->cloud.n);
     for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
-    PG_TRY (pg_rows_place (&p->rows[PG_NODES], search, &p->cloud, p->cloud.n, p->cloud.x, p->cloud.volume,
-                           own, NULL, NULL, p->threads));
+    PG_TRY (pg_rows_place (&p->bonds.rows[PG_NODES], search, &p->cloud, p->cloud.n, p->cloud.x,
+                           p->cloud.volume, own, NULL, NULL, p->threads));
     PG_TRY (number_held (p, PG_NODES));
     PG_TRY (widen (p, PG_NODES));
     PG_TRY (check_support (p, scene, PG_NODES));
@@ -221,7 +223,7 @@ done:
 static int quadrature_order (const pg_problem *p)
 {
     /* at most 5, the highest rule there is */
-    return p->approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;
+    return p->form.approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;
 }
 
 /* Points per direction of a cell: as the scene says, else what the basis needs. */
@@ -247,18 +249,18 @@ static pg_status make_points (pg_problem *p, const pg_family_search *search, con
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
     /* with 2 the identity amplifies the error of thin pieces */
-    p->cells.cut_order = p->integration->consistent ? 3 : 0;
-    if (!p->integration->at_nodes)
-        PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
-    PG_TRY (pg_rows_place (&p->rows[PG_POINTS], search, &p->cloud, q.n, q.x, q.weight, NULL, q.cell, NULL,
-                           p->threads));
+    p->cells.cut_order = p->form.integration->consistent ? 3 : 0;
+    if (!p->form.integration->at_nodes)
+        PG_TRY (p->form.integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
+    PG_TRY (pg_rows_place (&p->bonds.rows[PG_POINTS], search, &p->cloud, q.n, q.x, q.weight, NULL, q.cell,
+                           NULL, p->threads));
     PG_TRY (number_held (p, PG_POINTS));
     PG_TRY (widen (p, PG_POINTS));
     PG_TRY (check_support (p, scene, PG_POINTS));
-    if (!p->integration->consistent) goto done;
-    PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
-                                   facet_order (p, scene), p->threads));
-    tell_blind (p, "face point", &p->consistency->face, &p->consistency->widened, NULL);
+    if (!p->form.integration->consistent) goto done;
+    PG_TRY (pg_consistency_create (&p->form.consistency, &p->cells, &p->form.approx, &p->cloud,
+                                   &p->bonds.rows[PG_POINTS], facet_order (p, scene), p->threads));
+    tell_blind (p, "face point", &p->form.consistency->face, &p->form.consistency->widened, NULL);
 done:
     pg_quadrature_clear (&q);
     return status;
@@ -273,15 +275,15 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
     double *eye = NULL;
     size_t keep = 0, dim = (size_t) p->dim;
     PG_ALLOC (used, p->cells.nfacet);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
                     || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
         for (size_t k = 0; load->cracks && k < p->cells.nfacet; k++) used[k] = 1;
     }
-    p->facet_order = facet_order (p, scene);
-    PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
+    p->bonds.facet_order = facet_order (p, scene);
+    PG_TRY (pg_facet_points (&q, &p->cells, p->bonds.facet_order));
     for (size_t k = 0; k < q.n; k++) {
         if (!used[q.cell[k]]) continue;
         memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);
@@ -289,13 +291,13 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
         q.weight[keep] = q.weight[k], q.cell[keep++] = q.cell[k];
     }
     PG_TRY (pg_rows_eyes (&eye, &p->cloud, keep, q.x, q.normal));
-    PG_TRY (pg_rows_place (&p->rows[PG_FACETS], search, &p->cloud, keep, q.x, q.weight, NULL, q.cell, eye,
-                           p->threads));
+    PG_TRY (pg_rows_place (&p->bonds.rows[PG_FACETS], search, &p->cloud, keep, q.x, q.weight, NULL, q.cell,
+                           eye, p->threads));
     PG_TRY (number_held (p, PG_FACETS));
     PG_TRY (widen (p, PG_FACETS));
     PG_TRY (check_support (p, scene, PG_FACETS));
-    pg_consistency_normals (p->consistency, &p->rows[PG_FACETS], q.normal);
-    p->facet_normal = q.normal, q.normal = NULL;
+    pg_consistency_normals (p->form.consistency, &p->bonds.rows[PG_FACETS], q.normal);
+    p->bonds.facet_normal = q.normal, q.normal = NULL;
 done:
     pg_quadrature_clear (&q);
     pg_free (used), pg_free (eye);
@@ -317,8 +319,8 @@ static double distance2 (const pg_problem *p, const double *x, int node)
  * answer is always the same. */
 int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
 {
-    const pg_family *f = &p->rows[set].family;
-    const double *x = p->rows[set].x + point * (size_t) p->dim;
+    const pg_family *f = &p->bonds.rows[set].family;
+    const double *x = p->bonds.rows[set].x + point * (size_t) p->dim;
     int nearest = -1;
     for (size_t e = f->start[point]; e < f->start[point + 1]; e++)
         if (nearest < 0 || distance2 (p, x, f->node[e]) < distance2 (p, x, nearest)) nearest = f->node[e];
@@ -331,10 +333,10 @@ static pg_status measure_spacing (pg_problem *p)
 {
     pg_status status = PG_OK;
     for (int s = 0; s < PG_BOND_SETS && p->cloud.size; s++) {
-        PG_ALLOC (p->spacing[s], p->rows[s].n);
-        for (size_t q = 0; q < p->rows[s].n; q++) {
+        PG_ALLOC (p->bonds.spacing[s], p->bonds.rows[s].n);
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
             int nearest = s == PG_NODES ? (int) q : pg_bonds_nearest (p, s, q);
-            p->spacing[s][q] = nearest < 0 ? p->cloud.h : p->cloud.size[nearest];
+            p->bonds.spacing[s][q] = nearest < 0 ? p->cloud.h : p->cloud.size[nearest];
         }
     }
 done:
@@ -344,13 +346,13 @@ done:
 /* Local spacing at a point of a set, m: that of its nearest node where spacings differ. */
 double pg_problem_spacing (const pg_problem *p, int set, size_t point)
 {
-    return p->spacing[set] ? p->spacing[set][point] : p->cloud.h;
+    return p->bonds.spacing[set] ? p->bonds.spacing[set][point] : p->cloud.h;
 }
 
 /* A point of evaluation on a node has a bond of no length there, whose stretch means nothing. */
 int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
 {
-    const pg_rows *r = &p->rows[set];
+    const pg_rows *r = &p->bonds.rows[set];
     int j = r->family.node[e];
     double least = PG_NO_LENGTH * pg_problem_spacing (p, set, point);
     return j == r->own[point] || distance2 (p, r->x + point * (size_t) p->dim, j) <= least * least;
@@ -363,7 +365,7 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     const char *name;
     int excluded = 0;
-    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->exempt[s], p->rows[s].n);
+    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->bonds.exempt[s], p->bonds.rows[s].n);
     for (size_t k = 0; (name = pg_scene_name (scene, k, "failure.exclude")); k++) {
         char path[64];
         snprintf (path, sizeof path, "failure.exclude[%zu]", k);
@@ -371,17 +373,17 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
         if (set && pg_set_points (set) == 0 && !pg_sets_empty_side (&p->sets, set))
             pg_scene_fault (scene, path, "%s is a set without points", name);
         if (!set) continue;
-        for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;
+        for (size_t i = 0; i < set->npoint; i++) p->bonds.exempt[PG_NODES][set->point[i]] = 1;
         excluded |= set->npoint > 0;
     }
     for (int s = PG_POINTS; s < PG_BOND_SETS && excluded; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++) {
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
             int nearest = pg_bonds_nearest (p, s, q);
-            p->exempt[s][q] = nearest >= 0 && p->exempt[PG_NODES][nearest];
+            p->bonds.exempt[s][q] = nearest >= 0 && p->bonds.exempt[PG_NODES][nearest];
         }
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++)
-            p->exempt[s][q] |= (unsigned char) (p->criterion[p->block[s][q]].never != 0);
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++)
+            p->bonds.exempt[s][q] |= (unsigned char) (p->criterion[p->block[s][q]].never != 0);
 done:
     return status;
 }
@@ -391,7 +393,7 @@ done:
 static pg_status make_point_bonds (pg_problem *p)
 {
     pg_status status = PG_OK;
-    pg_rows *r = &p->rows[PG_NODES];
+    pg_rows *r = &p->bonds.rows[PG_NODES];
     size_t n = p->cloud.n, dim = (size_t) p->dim;
     *r = (pg_rows) { .dim = p->dim, .n = n };
     PG_ALLOC (r->x, n * dim);
@@ -404,8 +406,8 @@ static pg_status make_point_bonds (pg_problem *p)
     PG_TRY (pg_sums_family (&r->family, p->sums, &r->parted));
     PG_TRY (number_held (p, PG_NODES));
     for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
-        PG_TRY (pg_rows_create (&p->rows[s], &p->approx, &p->cloud, 0, NULL, NULL, NULL, NULL));
-    PG_ALLOC (p->facet_normal, 0);
+        PG_TRY (pg_rows_create (&p->bonds.rows[s], &p->form.approx, &p->cloud, 0, NULL, NULL, NULL, NULL));
+    PG_ALLOC (p->bonds.facet_normal, 0);
 done:
     return status;
 }
@@ -415,7 +417,7 @@ done:
 static pg_status check_company (const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     for (size_t i = 0; i < f->n && status == PG_OK; i++) {
         if (f->start[i + 1] > f->start[i] || !pg_cloud_owns (&p->cloud, i)) continue;
         const double *x = p->cloud.x + i * (size_t) p->dim;
@@ -424,7 +426,7 @@ static pg_status check_company (const pg_problem *p, const pg_scene *scene)
                         "use a larger horizon",
                         pg_cloud_number (&p->cloud, i) + 1, x[0], p->dim > 1 ? x[1] : 0,
                         p->dim > 2 ? x[2] : 0,
-                        p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
+                        p->form.approx.horizon * pg_cloud_ratio (&p->cloud, i));
         status = pg_scene_verdict (scene);
     }
     return pg_ranks_agree (status);
@@ -448,8 +450,8 @@ static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
     double which = first ? -(double) (first - list) : -INFINITY;
     PG_TRY (pg_ranks_sum (1, &eroded));
     PG_TRY (pg_ranks_most (1, &which));
-    p->eroded = (size_t) eroded;
-    if (!p->eroded) return PG_OK;
+    p->crack.eroded = (size_t) eroded;
+    if (!p->crack.eroded) return PG_OK;
     first = list - (long) which;
     if (p->lattice.dim) {
         int across = 0, n = 0;
@@ -466,7 +468,8 @@ static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
     pg_problem_note (p,
                      PG_WARNING "%zu point%s on a pre-crack and lose%s all bonds to both sides, as if the "
                                 "crack were a spacing wide; %s",
-                     p->eroded, p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
+                     p->crack.eroded, p->crack.eroded == 1 ? " lies" : "s lie",
+                     p->crack.eroded == 1 ? "s" : "", way);
 done:
     return status;
 }
@@ -478,7 +481,7 @@ static pg_status note_parted (pg_problem *p)
     pg_status status = PG_OK;
     double n[PG_BOND_SETS] = { 0 };
     int alone = !p->method->shape_functions;
-    for (int s = 0; s < PG_BOND_SETS; s++) n[s] = (double) p->rows[s].parted;
+    for (int s = 0; s < PG_BOND_SETS; s++) n[s] = (double) p->bonds.rows[s].parted;
     PG_TRY (pg_cloud_sum (&p->cloud, PG_BOND_SETS, n));
     double all = alone ? n[PG_NODES] / 2 : n[PG_NODES] / 2 + n[PG_POINTS] + n[PG_FACETS];
     if (all > 0)
@@ -526,12 +529,12 @@ static void number_nodes (const pg_problem *p, int64_t *out)
 pg_status pg_problem_numbers (const pg_problem *p, int set, int64_t **out)
 {
     pg_status status = PG_OK;
-    size_t n = set == PG_NODES ? p->cloud.n : p->rows[set].n;
+    size_t n = set == PG_NODES ? p->cloud.n : p->bonds.rows[set].n;
     int64_t *number = NULL;
-    if (set != PG_NODES && n && !p->held[set].number && (!p->rows[set].cell || !p->cells.n))
+    if (set != PG_NODES && n && !p->bonds.held[set].number && (!p->bonds.rows[set].cell || !p->cells.n))
         PG_FAIL (PG_E_LIMIT, "points that belong to no cell have no numbers");
     PG_ALLOC (number, n);
-    if (p->held[set].number) memcpy (number, p->held[set].number, n * sizeof *number);
+    if (p->bonds.held[set].number) memcpy (number, p->bonds.held[set].number, n * sizeof *number);
     else if (set == PG_NODES) number_nodes (p, number);
     else PG_TRY (number_points (p, set, NULL, number));
     *out = number;
@@ -550,13 +553,13 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
         PG_TRY (make_point_bonds (p));
         PG_TRY (check_company (p, scene));
     } else {
-        PG_TRY (pg_rows_search (&search, &p->approx, &p->cloud));
+        PG_TRY (pg_rows_search (&search, &p->form.approx, &p->cloud));
         PG_TRY (make_nodes (p, search, scene));
         PG_TRY (make_points (p, search, scene));
         PG_TRY (make_facets (p, search, scene));
     }
     for (int s = 0; s < PG_BOND_SETS; s++)
-        p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
+        p->bonds.first[s + 1] = p->bonds.first[s] + p->bonds.rows[s].family.start[p->bonds.rows[s].n];
     PG_TRY (measure_spacing (p));
     PG_TRY (pg_blocks_build (p, scene));
     PG_TRY (pg_laws_build (p, scene));

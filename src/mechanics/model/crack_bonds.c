@@ -15,7 +15,8 @@ static double reach_of (const pg_problem *p)
     double largest = 1, reach = 0;
     for (size_t i = 0; p->cloud.size && i < p->cloud.n; i++)
         largest = fmax (largest, pg_cloud_ratio (&p->cloud, i));
-    for (int k = 0; k < p->dim; k++) reach = fmax (reach, p->approx.horizon * largest + p->cloud.step[k]);
+    for (int k = 0; k < p->dim; k++)
+        reach = fmax (reach, p->form.approx.horizon * largest + p->cloud.step[k]);
     return reach;
 }
 
@@ -34,11 +35,11 @@ static pg_status cut_at (const pg_state *s, const pg_problem *p, const pg_cracks
                          pg_changes *cut)
 {
     pg_status status = PG_OK;
-    const pg_rows *r = &p->rows[set];
+    const pg_rows *r = &p->bonds.rows[set];
     size_t dim = (size_t) p->dim;
     const double *x = r->x + dim * q;
     for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
-        size_t bond = p->first_bond[set] + e;
+        size_t bond = p->bonds.first[set] + e;
         int j = r->family.node[e];
         if (!s->alive[bond] || j == r->own[q]
             || !pg_cracks_cut (cracks, x, p->cloud.x + dim * (size_t) j, pg_cloud_same (&p->cloud)))
@@ -65,9 +66,9 @@ static pg_status cut_by (const pg_state *s, const pg_problem *p, pg_crack *piece
             all[k] = fmin (all[k], fresh.box[2 * dim * c + k]),
             all[3 + k] = fmax (all[3 + k], fresh.box[2 * dim * c + dim + k]);
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++) {
-            const double *x = p->rows[set].x + dim * q;
-            double far = p->rows[set].wide ? reach * p->rows[set].wide[q] : reach;
+        for (size_t q = 0; q < p->bonds.rows[set].n; q++) {
+            const double *x = p->bonds.rows[set].x + dim * q;
+            double far = p->bonds.rows[set].wide ? reach * p->bonds.rows[set].wide[q] : reach;
             int away = 0;
             for (size_t k = 0; k < dim; k++) low[k] = x[k] - far, high[k] = x[k] + far;
             for (size_t k = 0; k < dim && !away; k++) away = high[k] < all[k] || low[k] > all[3 + k];
@@ -153,8 +154,8 @@ void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offs
     size_t dim = (size_t) p->dim;
     if (!pg_paths_draw_back (s->paths, tip, offset)) return;
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_rows *rows = &p->rows[set];
-        unsigned char *alive = s->alive + p->first_bond[set];
+        const pg_rows *rows = &p->bonds.rows[set];
+        unsigned char *alive = s->alive + p->bonds.first[set];
         for (size_t q = 0; q < rows->n; q++)
             for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
                 if (!alive[e])
@@ -216,8 +217,8 @@ pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, cons
 pg_ground pg_problem_ground (const pg_problem *p)
 {
     return (pg_ground) { .dim = p->dim, .cloud = &p->cloud, .body = &p->body, .between = p->between,
-                         .search = p->search, .tip_offset = p->tip_offset,
-                         .closed_tip_offset = p->closed_tip_offset };
+                         .search = p->crack.search, .tip_offset = p->crack.tip_offset,
+                         .closed_tip_offset = p->crack.closed_tip_offset };
 }
 
 int pg_problem_has_body (const pg_problem *p, const double *x)
@@ -238,14 +239,14 @@ double pg_problem_spacing_at (const pg_problem *p, const double *x)
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state)
 {
     if (state && state->paths) return &state->paths->cracks;
-    return state && state->surfaces ? &state->surfaces->cracks : &problem->cracks;
+    return state && state->surfaces ? &state->surfaces->cracks : &problem->crack.given;
 }
 
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n)
 {
     const pg_crack_surfaces *w = state ? state->surfaces : NULL;
-    *n = w ? w->nfront : problem->nfront;
-    return w ? w->front : problem->front;
+    *n = w ? w->nfront : problem->crack.nfront;
+    return w ? w->front : problem->crack.front;
 }
 
 /* ---- borders of background cells ----------------------------------------------------------------------- */
@@ -259,7 +260,7 @@ pg_status pg_crack_breaks (const pg_problem *p, const double *a, const double *b
     size_t cap = 0, count = 2, kept = 0;
     PG_GROW (all, cap, 2);
     all[0] = 0, all[1] = 1;
-    for (size_t c = 0; p->consistency && p->dim == 2 && c < p->cells.n; c++) {
+    for (size_t c = 0; p->form.consistency && p->dim == 2 && c < p->cells.n; c++) {
         if (!pg_cell_clip (&p->cells, c, a, b, nothing, in)) continue;
         PG_GROW (all, cap, count + 2);
         all[count++] = in[0], all[count++] = in[1];

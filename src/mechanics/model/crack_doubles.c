@@ -95,7 +95,7 @@ static void drop (pg_cracks *all, size_t i)
 /* What becomes of piece j, which piece i before it may double. */
 static int settle (pg_problem *p, size_t i, size_t j, const pg_scene *scene)
 {
-    pg_cracks *all = &p->cracks;
+    pg_cracks *all = &p->crack.given;
     pg_crack *a = &all->crack[i], *b = &all->crack[j];
     double near = 1e-9 * pg_crack_size (a, p->dim);
     int overlap, back, whole = contains (p->dim, a, b, near, &overlap),
@@ -133,7 +133,7 @@ static int same_polyline (const pg_cracks *all, size_t j, size_t n, size_t i, si
 
 static int drop_polyline (pg_problem *p, size_t j)
 {
-    pg_cracks *all = &p->cracks;
+    pg_cracks *all = &p->crack.given;
     size_t first, other, n = pieces_of (all, j, &first);
     if (n < 2 || first != j) return 0;
     for (size_t i = 0; i < j; i += pieces_of (all, i, &other)) {
@@ -149,16 +149,16 @@ static int drop_polyline (pg_problem *p, size_t j)
 
 pg_status drop_doubled_cracks (pg_problem *p, const pg_scene *scene)
 {
-    size_t before = p->cracks.n, first = 0;
+    size_t before = p->crack.given.n, first = 0;
     if (p->dim < 2) return PG_OK;
     /* Pieces of an entry follow each other from `first` on: the pieces of others lie before that. */
-    for (size_t j = 1; j < p->cracks.n; j++) {
-        int begins = p->cracks.crack[j].entry != p->cracks.crack[j - 1].entry, gone;
+    for (size_t j = 1; j < p->crack.given.n; j++) {
+        int begins = p->crack.given.crack[j].entry != p->crack.given.crack[j - 1].entry, gone;
         if (begins) first = j;
         gone = begins && drop_polyline (p, j);
         for (size_t i = 0; i < first && !gone; i++) gone = settle (p, i, j, scene);
         /* the next piece takes this place */
         if (gone) j--;
     }
-    return p->cracks.n < before ? pg_cracks_index (&p->cracks) : PG_OK;
+    return p->crack.given.n < before ? pg_cracks_index (&p->crack.given) : PG_OK;
 }

@@ -42,8 +42,8 @@ static void warn (pg_problem *p, const char *mode)
 /* The points where the weak form is evaluated, and their bond set. */
 static const pg_rows *points_of (const pg_problem *p, int *set)
 {
-    *set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
-    return &p->rows[*set];
+    *set = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
+    return &p->bonds.rows[*set];
 }
 
 /* A stiffness of place goes with a dilatation at the points alone. */
@@ -70,7 +70,7 @@ pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
         int wanted = p->material[m].lambda > 0
                      && (strcmp (mode, "projected") == 0 || nearly_incompressible (&p->material[m]));
         if (wanted) lambda[m] = p->material[m].lambda, some++;
-        if (wanted && p->vary[m].of[PG_OF_STIFFNESS]) refuse_graded (&p->material[m], scene);
+        if (wanted && p->at.vary[m].of[PG_OF_STIFFNESS]) refuse_graded (&p->material[m], scene);
     }
     if (some && pg_ranks_now () && !p->lattice.dim)
         pg_scene_fault (scene, "method.dilatation",
@@ -81,22 +81,22 @@ pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
     if (!some) goto done;
     const pg_rows *points = points_of (p, &set);
     pg_patch_source source = { .points = points,
-                               .family = p->consistency ? &p->consistency->family : &points->family,
+                               .family = p->form.consistency ? &p->form.consistency->family : &points->family,
                                .cloud = &p->cloud,
-                               .cells = p->integration->at_nodes ? NULL : &p->cells,
+                               .cells = p->form.integration->at_nodes ? NULL : &p->cells,
                                .lattice = p->lattice.dim ? &p->lattice : NULL,
                                .centred = p->lattice.dim
                                           && strcmp (pg_scene_text (scene, "lattice"), "cells") == 0,
                                .block = p->block[set],
-                               .spacing = p->spacing[set],
-                               .across = p->integration->at_nodes ? 3 : 2,
+                               .spacing = p->bonds.spacing[set],
+                               .across = p->form.integration->at_nodes ? 3 : 2,
                                .materials = p->nmaterial,
                                .lambda = lambda };
-    PG_TRY (pg_patches_create (&p->patches, &source));
+    PG_TRY (pg_patches_create (&p->form.patches, &source));
     pg_problem_note (p,
                      "dilatation projected: linear in each of %zu patches of about %d %s per axis, against "
                      "locking (Poisson's ratio near 1/2%s)",
-                     p->patches->n, source.across, source.cells ? "cells" : "points",
+                     p->form.patches->n, source.across, source.cells ? "cells" : "points",
                      some < p->nmaterial ? "; not in all materials" : "");
 done:
     pg_free (lambda);

@@ -30,14 +30,15 @@ done:
 static pg_status read_sets (pg_problem *p, const pg_scene *scene, size_t n)
 {
     pg_status status = PG_OK;
-    PG_ALLOC (p->motion, n);
-    p->nmotion = n;
+    PG_ALLOC (p->boundary.motion, n);
+    p->boundary.nmotion = n;
     for (size_t i = 0; i < n; i++) {
         char path[64];
         snprintf (path, sizeof path, "initial.sets[%zu].set", i);
-        p->motion[i].set = pg_sets_named (&p->sets, scene, path, pg_scene_text (scene, "%s", path));
+        p->boundary.motion[i].set = pg_sets_named (&p->sets, scene, path, pg_scene_text (scene, "%s", path));
         snprintf (path, sizeof path, "initial.sets[%zu].velocity", i);
-        for (int k = 0; k < 3; k++) PG_TRY (read_component (p, scene, path, k, &p->motion[i].value[k]));
+        for (int k = 0; k < 3; k++)
+            PG_TRY (read_component (p, scene, path, k, &p->boundary.motion[i].value[k]));
     }
 done:
     return status;
@@ -60,7 +61,7 @@ pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
                         "not with force: %s so far: use %s", p->method->name,
                         pg_methods_of_points (p, names, sizeof names));
     for (int k = 0; !p->method->shape_functions && k < 3; k++)
-        PG_TRY (read_component (p, scene, "initial.velocity", k, &p->initial[k]));
+        PG_TRY (read_component (p, scene, "initial.velocity", k, &p->boundary.initial[k]));
     if (!p->method->shape_functions && parts) PG_TRY (read_sets (p, scene, parts));
 done:
     return status;
@@ -107,21 +108,21 @@ static void set_point (const pg_problem *p, pg_expression *const *value, size_t 
 void pg_initial_set (const pg_problem *p, double *v)
 {
     size_t stride = (size_t) pg_problem_unknowns (p);
-    int all = p->initial[0] || p->initial[1] || p->initial[2];
-    for (size_t i = 0; all && i < p->cloud.n; i++) set_point (p, p->initial, i, v + i * stride);
-    for (size_t m = 0; m < p->nmotion; m++)
-        for (size_t q = 0; q < p->motion[m].set->npoint; q++) {
-            size_t i = (size_t) p->motion[m].set->point[q];
-            set_point (p, p->motion[m].value, i, v + i * stride);
+    int all = p->boundary.initial[0] || p->boundary.initial[1] || p->boundary.initial[2];
+    for (size_t i = 0; all && i < p->cloud.n; i++) set_point (p, p->boundary.initial, i, v + i * stride);
+    for (size_t m = 0; m < p->boundary.nmotion; m++)
+        for (size_t q = 0; q < p->boundary.motion[m].set->npoint; q++) {
+            size_t i = (size_t) p->boundary.motion[m].set->point[q];
+            set_point (p, p->boundary.motion[m].value, i, v + i * stride);
         }
 }
 
 /* Frees the initial velocities of the scene, if there are any. */
 void pg_initial_clear (pg_problem *p)
 {
-    for (int k = 0; k < 3; k++) pg_expression_free (&p->initial[k]);
-    for (size_t m = 0; m < p->nmotion; m++)
-        for (int k = 0; k < 3; k++) pg_expression_free (&p->motion[m].value[k]);
-    pg_free (p->motion);
-    p->motion = NULL, p->nmotion = 0;
+    for (int k = 0; k < 3; k++) pg_expression_free (&p->boundary.initial[k]);
+    for (size_t m = 0; m < p->boundary.nmotion; m++)
+        for (int k = 0; k < 3; k++) pg_expression_free (&p->boundary.motion[m].value[k]);
+    pg_free (p->boundary.motion);
+    p->boundary.motion = NULL, p->boundary.nmotion = 0;
 }

@@ -37,10 +37,10 @@ pg_status pg_interfaces_read (pg_problem *p, const pg_scene *scene)
                                                      "energy of interfaces");
         return PG_OK;
     }
-    PG_ALLOC (p->interface, n);
-    p->ninterface = n;
+    PG_ALLOC (p->at.interface, n);
+    p->at.ninterface = n;
     for (size_t k = 0; k < n; k++) {
-        pg_interface *one = &p->interface[k];
+        pg_interface *one = &p->at.interface[k];
         for (size_t side = 0; side < 2; side++) one->material[side] = material_named (p, scene, k, side);
         one->energy = pg_scene_number (scene, "failure.interfaces[%zu].fracture_energy", k);
         one->strength = pg_scene_given (scene, "failure.interfaces[%zu].tensile_strength", k)
@@ -56,9 +56,9 @@ done:
 
 const pg_interface *pg_problem_interface (const pg_problem *p, int a, int b)
 {
-    for (size_t k = 0; k < p->ninterface; k++) {
-        const int *m = p->interface[k].material;
-        if ((m[0] == a && m[1] == b) || (m[0] == b && m[1] == a)) return &p->interface[k];
+    for (size_t k = 0; k < p->at.ninterface; k++) {
+        const int *m = p->at.interface[k].material;
+        if ((m[0] == a && m[1] == b) || (m[0] == b && m[1] == a)) return &p->at.interface[k];
     }
     return NULL;
 }

@@ -31,7 +31,8 @@ const char *pg_variation_name (int of, const char **unit)
 int pg_problem_graded (const pg_problem *p)
 {
     int graded = 0;
-    for (size_t m = 0; p->vary && m < p->nmaterial; m++) graded |= p->vary[m].of[PG_OF_STIFFNESS] != NULL;
+    for (size_t m = 0; p->at.vary && m < p->nmaterial; m++)
+        graded |= p->at.vary[m].of[PG_OF_STIFFNESS] != NULL;
     return graded;
 }
 
@@ -89,7 +90,7 @@ static pg_status read_one (const pg_problem *p, const pg_scene *scene, size_t m,
 {
     pg_status status = PG_OK;
     char path[128];
-    pg_variation *v = &p->vary[m];
+    pg_variation *v = &p->at.vary[m];
     if (!key_of (path, scene, material, k) || !isnan (pg_scene_number (scene, "%s", path))) return PG_OK;
     PG_TRY (pg_expression_compile (&v->of[k], pg_scene_text (scene, "%s", path), what[k].unit));
     if (pg_expression_uses (v->of[k], 't')) pg_scene_fault (scene, path, "may depend on place, not on t");
@@ -103,10 +104,10 @@ pg_status pg_laws_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
-    PG_ALLOC (p->vary, p->nmaterial);
+    PG_ALLOC (p->at.vary, p->nmaterial);
     for (size_t m = 0; (name = pg_scene_name (scene, m, "materials")); m++)
         for (int k = 0; k < MOST; k++) {
-            p->vary[m].reference[k] = NAN;
+            p->at.vary[m].reference[k] = NAN;
             PG_TRY (read_one (p, scene, m, name, k));
         }
 done:
@@ -125,7 +126,7 @@ void pg_laws_check (pg_problem *p, const pg_scene *scene)
                          "relative change over 8 spacings");
     for (size_t m = 0; m < p->nmaterial; m++)
         for (int k = 0; k < MOST; k++) {
-            if (!p->vary[m].of[k]) continue;
+            if (!p->at.vary[m].of[k]) continue;
             key_of (path, scene, p->material[m].name, k);
             if (k == PG_OF_STIFFNESS && p->material[m].type->stress != pg_tangent_stress)
                 pg_scene_fault (scene, path, "must be one number with model: %s",
@@ -133,7 +134,7 @@ void pg_laws_check (pg_problem *p, const pg_scene *scene)
             if (k == PG_OF_STIFFNESS || !pg_criterion_of_bonds (c)) continue;
             if (!c->type->scale) pg_scene_fault (scene, path, "must be one number with criterion: %s",
                                                  c->type->name);
-            if (k == PG_OF_ENERGY && pg_expression_uses (p->vary[m].of[k], 'a'))
+            if (k == PG_OF_ENERGY && pg_expression_uses (p->at.vary[m].of[k], 'a'))
                 pg_scene_fault (scene, path, "may depend on place; angle, the direction of growth, goes with "
                                              "criterion: %s", pg_criterion_by_need (PG_NEEDS_FACETS));
         }
@@ -143,7 +144,7 @@ void pg_laws_check (pg_problem *p, const pg_scene *scene)
  * growth is known to criteria of tips, which read their limits by themselves. */
 static int counts (const pg_problem *p, size_t m, int k)
 {
-    const pg_expression *e = p->vary[m].of[k];
+    const pg_expression *e = p->at.vary[m].of[k];
     return e && (k == PG_OF_STIFFNESS || pg_criterion_of_bonds (p->criterion)
                  || (pg_criterion_of_tips (p->criterion) && !pg_expression_uses (e, 'a')));
 }
@@ -173,21 +174,22 @@ static pg_status find_values (const pg_problem *p, const pg_scene *scene, entry 
     pg_status status = PG_OK;
     double *value = NULL;
     size_t most = 0, at = 0;
-    for (int s = 0; s < PG_BOND_SETS; s++) most = p->rows[s].n > most ? p->rows[s].n : most;
+    for (int s = 0; s < PG_BOND_SETS; s++) most = p->bonds.rows[s].n > most ? p->bonds.rows[s].n : most;
     PG_ALLOC (value, most + 1);
-    for (int s = 0; s < PG_BOND_SETS; at += p->rows[s].n, s++) {
-        for (size_t q = 0; q < p->rows[s].n; q++) out[at + q] = (entry) { { 0 }, p->block[s][q], at + q };
+    for (int s = 0; s < PG_BOND_SETS; at += p->bonds.rows[s].n, s++) {
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++)
+            out[at + q] = (entry){ { 0 }, p->block[s][q], at + q };
         for (size_t m = 0; m < p->nmaterial; m++)
             for (int k = 0; k < MOST; k++) {
-                evaluation all = { p, s, p->vary[m].of[k], value };
+                evaluation all = { p, s, p->at.vary[m].of[k], value };
                 char path[128];
                 if (!counts (p, m, k)) continue;
-                pg_parallel (p->threads, p->rows[s].n, evaluate, &all);
-                for (size_t q = 0; q < p->rows[s].n; q++) {
+                pg_parallel (p->threads, p->bonds.rows[s].n, evaluate, &all);
+                for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
                     if (p->block[s][q] != (int) m) continue;
                     out[at + q].value[k] = value[q];
                     if (value[q] > 0 && isfinite (value[q])) continue;
-                    const double *x = p->rows[s].x + q * (size_t) p->dim;
+                    const double *x = p->bonds.rows[s].x + q * (size_t) p->dim;
                     key_of (path, scene, p->material[m].name, k);
                     pg_scene_fault (scene, path,
                                     "is %.6g %s at x %.6g m, y %.6g m, z %.6g m: it must be positive all "
@@ -249,9 +251,9 @@ static pg_status deal_out (const pg_problem *p, const int *group_of, int *to[PG_
 {
     pg_status status = PG_OK;
     for (int s = 0; s < PG_BOND_SETS; s++) to[s] = NULL;
-    for (int s = 0; s < PG_BOND_SETS; group_of += p->rows[s].n, s++) {
-        PG_ALLOC (to[s], p->rows[s].n);
-        memcpy (to[s], group_of, p->rows[s].n * sizeof *group_of);
+    for (int s = 0; s < PG_BOND_SETS; group_of += p->bonds.rows[s].n, s++) {
+        PG_ALLOC (to[s], p->bonds.rows[s].n);
+        memcpy (to[s], group_of, p->bonds.rows[s].n * sizeof *group_of);
     }
 done:
     return status;
@@ -265,14 +267,14 @@ static pg_status make_laws (pg_problem *p, const entry *all, size_t n, int *of)
     entry *first = NULL;
     size_t count;
     PG_TRY (group (all, n, stiffness, of, &first, &count));
-    p->law = NULL, p->nlaw = count;
-    PG_TRY (deal_out (p, of, p->law_of));
-    PG_ALLOC (p->law, count);
+    p->at.law = NULL, p->at.nlaw = count;
+    PG_TRY (deal_out (p, of, p->at.law_of));
+    PG_ALLOC (p->at.law, count);
     for (size_t g = 0; g < count; g++) {
-        const pg_variation *v = &p->vary[first[g].block];
-        p->law[g] = p->material[first[g].block];
+        const pg_variation *v = &p->at.vary[first[g].block];
+        p->at.law[g] = p->material[first[g].block];
         if (v->of[PG_OF_STIFFNESS])
-            scale_law (&p->law[g], first[g].value[PG_OF_STIFFNESS] / v->reference[PG_OF_STIFFNESS]);
+            scale_law (&p->at.law[g], first[g].value[PG_OF_STIFFNESS] / v->reference[PG_OF_STIFFNESS]);
     }
 done:
     pg_free (first);
@@ -287,12 +289,12 @@ static pg_status make_limits (pg_problem *p, const entry *all, size_t n, int *of
     entry *first = NULL;
     size_t count;
     PG_TRY (group (all, n, every, of, &first, &count));
-    p->limit = NULL, p->nlimit = count;
-    PG_TRY (deal_out (p, of, p->limit_of));
-    PG_ALLOC (p->limit, count);
+    p->at.limit = NULL, p->at.nlimit = count;
+    PG_TRY (deal_out (p, of, p->at.limit_of));
+    PG_ALLOC (p->at.limit, count);
     for (size_t g = 0; g < count; g++) {
-        pg_criterion *c = &p->limit[g];
-        const pg_variation *v = &p->vary[first[g].block];
+        pg_criterion *c = &p->at.limit[g];
+        const pg_variation *v = &p->at.vary[first[g].block];
         pg_limit_ratio ratio;
         for (int k = 0; k < MOST; k++) ratio.of[k] = v->of[k] ? first[g].value[k] / v->reference[k] : 1;
         *c = p->criterion[first[g].block];
@@ -309,7 +311,7 @@ static pg_status summarise (pg_problem *p, const entry *all)
     pg_status status = PG_OK;
     for (size_t m = 0; m < p->nmaterial; m++)
         for (int k = 0; k < MOST; k++) {
-            pg_variation *v = &p->vary[m];
+            pg_variation *v = &p->at.vary[m];
             double sum[2] = { 0, 0 }, ends[2] = { -INFINITY, -INFINITY };
             for (size_t i = 0; counts (p, m, k) && i < p->cloud.n; i++) {
                 if (all[i].block != (int) m || !pg_cloud_owns (&p->cloud, i)) continue;
@@ -329,8 +331,9 @@ done:
 /* Where nothing varies, materials and blocks serve as they are. */
 static void take_blocks (pg_problem *p)
 {
-    p->law = p->material, p->nlaw = p->nmaterial, p->limit = p->criterion, p->nlimit = p->nmaterial;
-    for (int s = 0; s < PG_BOND_SETS; s++) p->law_of[s] = p->limit_of[s] = p->block[s];
+    p->at.law = p->material, p->at.nlaw = p->nmaterial, p->at.limit = p->criterion,
+    p->at.nlimit = p->nmaterial;
+    for (int s = 0; s < PG_BOND_SETS; s++) p->at.law_of[s] = p->at.limit_of[s] = p->block[s];
 }
 
 static int any_varies (const pg_problem *p)
@@ -349,7 +352,7 @@ pg_status pg_laws_build (pg_problem *p, const pg_scene *scene)
     size_t n = 0;
     take_blocks (p);
     if (!any_varies (p)) return PG_OK;
-    for (int s = 0; s < PG_BOND_SETS; s++) n += p->rows[s].n;
+    for (int s = 0; s < PG_BOND_SETS; s++) n += p->bonds.rows[s].n;
     PG_ALLOC (all, n);
     PG_TRY (find_values (p, scene, all));
     PG_TRY (pg_scene_verdict (scene));
@@ -367,22 +370,22 @@ done:
 void pg_laws_clear (pg_problem *p)
 {
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        if (p->law_of[s] != p->block[s]) pg_free (p->law_of[s]);
-        if (p->limit_of[s] != p->block[s]) pg_free (p->limit_of[s]);
+        if (p->at.law_of[s] != p->block[s]) pg_free (p->at.law_of[s]);
+        if (p->at.limit_of[s] != p->block[s]) pg_free (p->at.limit_of[s]);
     }
-    if (p->law != p->material) pg_free (p->law);
-    if (p->limit != p->criterion) pg_free (p->limit);
-    for (size_t m = 0; p->vary && m < p->nmaterial; m++)
-        for (int k = 0; k < MOST; k++) pg_expression_free (&p->vary[m].of[k]);
-    pg_free (p->vary);
+    if (p->at.law != p->material) pg_free (p->at.law);
+    if (p->at.limit != p->criterion) pg_free (p->at.limit);
+    for (size_t m = 0; p->at.vary && m < p->nmaterial; m++)
+        for (int k = 0; k < MOST; k++) pg_expression_free (&p->at.vary[m].of[k]);
+    pg_free (p->at.vary);
 }
 
 size_t pg_variation_words (const pg_problem *p, size_t k, char *text, size_t size)
 {
     size_t at = 0;
-    for (size_t m = 0; p->vary && m < p->nmaterial; m++)
+    for (size_t m = 0; p->at.vary && m < p->nmaterial; m++)
         for (int of = 0; of < MOST; of++) {
-            const pg_variation *v = &p->vary[m];
+            const pg_variation *v = &p->at.vary[m];
             if (!v->of[of] || !counts (p, m, of) || at++ != k) continue;
             snprintf (text, size, "%s of %.40s: mean %.6g %s, least %.6g, largest %.6g (expression of place, "
                       "at its points)", what[of].key, p->material[m].name, v->mean[of],
@@ -394,6 +397,6 @@ size_t pg_variation_words (const pg_problem *p, size_t k, char *text, size_t siz
 
 int pg_problem_breaks_by_elongation (const pg_problem *p)
 {
-    return p->nlimit == 1 && p->limit->type && p->limit->type->elongation && !p->cloud.size
+    return p->at.nlimit == 1 && p->at.limit->type && p->at.limit->type->elongation && !p->cloud.size
            && !pg_problem_strained (p);
 }

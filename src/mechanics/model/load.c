@@ -332,19 +332,19 @@ done:
 static void name_apart (pg_problem *problem, const pg_scene *scene)
 {
     char path[64];
-    for (size_t i = 1; i < problem->nload; i++)
+    for (size_t i = 1; i < problem->boundary.nload; i++)
         for (size_t k = 0; k < i; k++) {
-            if (strcmp (problem->load[i].name, problem->load[k].name) != 0) continue;
+            if (strcmp (problem->boundary.load[i].name, problem->boundary.load[k].name) != 0) continue;
             snprintf (path, sizeof path, "boundary[%zu].name", i);
-            if (problem->load[i].platen)
+            if (problem->boundary.load[i].platen)
                 pg_scene_fault (scene, "platens", "boundary or another platen has the name %s too",
-                                problem->load[i].name);
+                                problem->boundary.load[i].name);
             else if (pg_scene_given (scene, "%s", path))
                 pg_scene_fault (scene, path, "boundary[%zu] has this name too", k);
             else {
                 char longer[64];
-                snprintf (longer, sizeof longer, "%.40s_%zu", problem->load[k].name, i + 1);
-                memcpy (problem->load[i].name, longer, sizeof longer);
+                snprintf (longer, sizeof longer, "%.40s_%zu", problem->boundary.load[k].name, i + 1);
+                memcpy (problem->boundary.load[i].name, longer, sizeof longer);
             }
         }
 }
@@ -360,14 +360,14 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
                    * pg_scene_number (scene, "solver.dt");
     if (!(duration > 0)) duration = 1;
     size_t own = pg_scene_count (scene, "boundary");
-    problem->nload = own + pg_platens_loads (scene);
-    PG_ALLOC (problem->load, problem->nload);
+    problem->boundary.nload = own + pg_platens_loads (scene);
+    PG_ALLOC (problem->boundary.load, problem->boundary.nload);
     for (size_t i = 0; i < own; i++)
-        PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
+        PG_TRY (read_load (problem, &problem->boundary.load[i], scene, i, is_static, duration));
     PG_TRY (pg_platens_read (problem, scene, own, is_static, duration));
     name_apart (problem, scene);
     PG_TRY (pg_stages_read (problem, scene));
-    if (problem->nstage) duration = (double) problem->nstage;
+    if (problem->boundary.nstage) duration = (double) problem->boundary.nstage;
     pg_supports_check (problem, scene, duration);
     pg_loads_check_finite (problem, scene, duration);
     pg_supports_check_eliminated (problem, scene);
@@ -377,14 +377,14 @@ done:
 
 void pg_loads_clear (pg_problem *problem)
 {
-    for (size_t i = 0; problem->load && i < problem->nload; i++) {
-        for (int k = 0; k < 3; k++) pg_expression_free (&problem->load[i].value[k]);
-        for (int k = 0; k < 3; k++) pg_expression_free (&problem->load[i].angle[k]);
-        pg_expression_free (&problem->load[i].ramp);
-        pg_free (problem->load[i].table), pg_free (problem->load[i].share);
-        pg_free (problem->load[i].per_material);
-        if (problem->load[i].own) pg_free (problem->load[i].own->point);
-        pg_free (problem->load[i].own);
+    for (size_t i = 0; problem->boundary.load && i < problem->boundary.nload; i++) {
+        for (int k = 0; k < 3; k++) pg_expression_free (&problem->boundary.load[i].value[k]);
+        for (int k = 0; k < 3; k++) pg_expression_free (&problem->boundary.load[i].angle[k]);
+        pg_expression_free (&problem->boundary.load[i].ramp);
+        pg_free (problem->boundary.load[i].table), pg_free (problem->boundary.load[i].share);
+        pg_free (problem->boundary.load[i].per_material);
+        if (problem->boundary.load[i].own) pg_free (problem->boundary.load[i].own->point);
+        pg_free (problem->boundary.load[i].own);
     }
-    pg_free (problem->load), pg_free (problem->platen);
+    pg_free (problem->boundary.load), pg_free (problem->boundary.platen);
 }

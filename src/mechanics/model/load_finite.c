@@ -36,8 +36,8 @@ void pg_loads_check_finite (const pg_problem *p, const pg_scene *scene, double d
 {
     size_t own = pg_scene_count (scene, "boundary");
     if (pg_scene_verdict (scene) != PG_OK) return;     /* what is faulty may lack expressions */
-    for (size_t i = 0; i < own && i < p->nload; i++) {
-        const pg_load *load = &p->load[i];
+    for (size_t i = 0; i < own && i < p->boundary.nload; i++) {
+        const pg_load *load = &p->boundary.load[i];
         char path[32];
         int components = load->kind == PG_PRESSURE ? 1 : pg_load_components (load, p->dim);
         for (int k = 0; load->set && k < components; k++) {

@@ -155,7 +155,7 @@ static pg_status read_component (pg_problem *problem, pg_platen *p, pg_load *loa
     if (places)
         pg_scene_fault (scene, path, "a rigid platen has one for all places: an expression of t alone");
     if (pg_expression_uses (load->value[k], 't')) load->proportional = 0;
-    if (force && p->motion >= 0 && problem->load[p->motion].value[k])
+    if (force && p->motion >= 0 && problem->boundary.load[p->motion].value[k])
         pg_scene_fault (scene, path, "along %c it is moved by a displacement: leave one of them out",
                         "xyz"[k]);
     if (force) p->free[k] = 1;
@@ -168,8 +168,8 @@ static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene
                             pg_load_kind kind, int is_static, double duration)
 {
     pg_status status = PG_OK;
-    pg_load *load = &problem->load[at];
-    pg_platen *p = &problem->platen[i];
+    pg_load *load = &problem->boundary.load[at];
+    pg_platen *p = &problem->boundary.platen[i];
     char path[96];
     int found = 0, force = kind == PG_PLATEN_FORCE, second = force && p->motion >= 0;
     const char *key = force ? "force" : "displacement";
@@ -198,16 +198,16 @@ pg_status pg_platens_read (pg_problem *problem, const pg_scene *scene, size_t at
 {
     pg_status status = PG_OK;
     size_t n = pg_scene_count (scene, "platens");
-    PG_ALLOC (problem->platen, n);
-    problem->nplaten = n;
+    PG_ALLOC (problem->boundary.platen, n);
+    problem->boundary.nplaten = n;
     if (n && problem->dim < 2) pg_scene_fault (scene, "platens", "a bar has supports and loads alone");
     for (size_t i = 0; i < n; i++) {
-        pg_platen *p = &problem->platen[i];
+        pg_platen *p = &problem->boundary.platen[i];
         p->motion = p->force = -1;
         snprintf (p->name, sizeof p->name, "%.63s", pg_scene_text (scene, "platens[%zu].name", i));
         for (size_t k = 0; k < i; k++) {
             char path[64];
-            if (strcmp (problem->platen[k].name, p->name) != 0) continue;
+            if (strcmp (problem->boundary.platen[k].name, p->name) != 0) continue;
             snprintf (path, sizeof path, "platens[%zu].name", i);
             pg_scene_fault (scene, path, "platens[%zu] has this name too", k);
             break;

@@ -103,15 +103,15 @@ static pg_status pass (const pg_scene *scene, pg_status status)
 static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
 {
     if (p->dim == 1 || strcmp (pg_scene_text (scene, "contact.kind"), "none") == 0) return PG_OK;
-    for (size_t k = 0; k < p->cracks.n; k++) {
-        pg_crack *c = &p->cracks.crack[k];
+    for (size_t k = 0; k < p->crack.given.n; k++) {
+        pg_crack *c = &p->crack.given.crack[k];
         size_t dim = (size_t) p->dim;
         double middle[3] = { 0 };
         for (size_t i = 0; i < c->nvertex * dim; i++) middle[i % dim] += c->vertex[i] / (double) c->nvertex;
         c->sided = 1, c->width = PG_NO_LENGTH * pg_problem_spacing_at (p, middle);
         if (p->dim == 2) pg_crack_orient (c);
     }
-    return pg_cracks_index (&p->cracks);
+    return pg_cracks_index (&p->crack.given);
 }
 
 /* The points of a lattice that this rank holds, with as many ghosts as the force needs; of a process that
@@ -177,9 +177,9 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_body_read (&p->body, scene));
-    PG_TRY (pass (scene, pg_cracks_read (&p->cracks, scene)));
+    PG_TRY (pass (scene, pg_cracks_read (&p->crack.given, scene)));
     PG_TRY (drop_doubled_cracks (p, scene));
-    PG_TRY (pass (scene, pg_slots_read (&p->slots, scene)));
+    PG_TRY (pass (scene, pg_slots_read (&p->crack.slots, scene)));
     PG_TRY (pg_scene_verdict (scene));
     if (pg_scene_given (scene, "mesh")) {
         PG_TRY (pg_mesh_body_read (&p->part, scene));
@@ -232,13 +232,13 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     for (size_t i = 0; i < p->nmaterial; i++) {
         const pg_material *m = &p->material[i];
         setting[i] = (pg_criterion_setting) { .mode = p->mode,
-                                              .horizon = p->approx.horizon,
+                                              .horizon = p->form.approx.horizon,
                                               .modulus = m->E,
                                               .poisson = m->nu,
                                               .thickness = p->cloud.thickness,
-                                              .kernel = p->approx.kernel->name,
+                                              .kernel = p->form.approx.kernel->name,
                                               .material = m->name,
-                                              .reference = p->vary[i].reference,
+                                              .reference = p->at.vary[i].reference,
                                               .usual = pg_problem_usual_criterion (p, scene) };
         if (p->method->limits) PG_TRY (p->method->limits (p, i, &setting[i]));
     }
@@ -263,16 +263,16 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_laws_read (p, scene));
     for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++)
         PG_TRY (pg_material_read_graded (&p->material[i], scene, name, p->mode,
-                                         p->vary[i].reference[PG_OF_STIFFNESS]));
+                                         p->at.vary[i].reference[PG_OF_STIFFNESS]));
     if (p->nmaterial == 0) {
         pg_scene_fault (scene, "materials", "at least one material is needed");
         PG_TRY (pg_scene_verdict (scene));
     }
-    PG_TRY (pg_method_approx (&p->approx, p->method, scene, p->cloud.h));
-    if (p->cloud.metric && (!p->method->shape_functions || p->approx.shape != PG_RADIAL))
+    PG_TRY (pg_method_approx (&p->form.approx, p->method, scene, p->cloud.h));
+    if (p->cloud.metric && (!p->method->shape_functions || p->form.approx.shape != PG_RADIAL))
         pg_scene_fault (scene, "mesh.support",
                         "anisotropic needs shape functions and method.support: radial");
-    p->approx.congruent = p->cloud.regular && !p->plain;
+    p->form.approx.congruent = p->cloud.regular && !p->plain;
     pg_method_note_ignored (p, scene);
     PG_TRY (pg_method_check_materials (p, scene));
     PG_TRY (p->method->read (p, scene));
@@ -290,7 +290,7 @@ static int sees_points (const pg_problem *p, const double *x)
         double bond[3] = { 0 };
         for (size_t k = 0; k < dim; k++) bond[k] = p->cloud.x[i * dim + k] - x[k];
         double r = pg_cloud_length2 (&p->cloud, i, bond);
-        double a = p->approx.horizon * pg_cloud_ratio (&p->cloud, i);
+        double a = p->form.approx.horizon * pg_cloud_ratio (&p->cloud, i);
         if (r < a * a) return 1;
     }
     return 0;
@@ -300,10 +300,10 @@ static int sees_points (const pg_problem *p, const double *x)
 static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    p->ngauge = pg_scene_count (scene, "output.gauges");
-    PG_ALLOC (p->gauge, p->ngauge);
-    for (size_t i = 0; i < p->ngauge; i++) {
-        pg_gauge *g = &p->gauge[i];
+    p->boundary.ngauge = pg_scene_count (scene, "output.gauges");
+    PG_ALLOC (p->boundary.gauge, p->boundary.ngauge);
+    for (size_t i = 0; i < p->boundary.ngauge; i++) {
+        pg_gauge *g = &p->boundary.gauge[i];
         snprintf (g->name, sizeof g->name, "%s", pg_scene_text (scene, "output.gauges[%zu].name", i));
         pg_scene_vector (scene, 3, g->from, "output.gauges[%zu].from", i);
         pg_scene_vector (scene, 3, g->to, "output.gauges[%zu].to", i);
@@ -352,13 +352,13 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     p->threads = threads < 1 ? 1 : threads;
     p->mode = mode_of (scene, p->dim);
     /* A thickness of 1 m, or a cross-section of 1 m^2, is assumed where none is given; the plan says so. */
-    p->thickness_assumed = p->dim < 3
+    p->quality.thickness_assumed = p->dim < 3
                            && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
     p->plain = pg_scene_bool (scene, "solver.plain");
     p->equilibria = pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
-    p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
+    p->quality.accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
     /* No number until the patch test has run: NAN shows as a gap and compares false. */
-    p->patch = (pg_patch) { .error = NAN, .compliance = NAN };
+    p->quality.patch = (pg_patch) { .error = NAN, .compliance = NAN };
     const char *title = pg_scene_text (scene, "title");
     name_of (p->name, sizeof p->name, pg_scene_file (scene));
     snprintf (p->title, sizeof p->title, "%s", title && *title ? title : p->name);
@@ -367,11 +367,12 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     if (pg_scene_partial (scene)) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (build_laws (p, scene));
     /* in the plane always, as a crack may begin anywhere; in space where cracks are, or may come */
-    if (p->dim == 2 || (p->dim == 3 && (p->cracks.n || pg_problem_grows (p))))
-        PG_TRY (pg_body_search_create (&p->search, &p->cloud, &p->body, &p->part));
+    if (p->dim == 2 || (p->dim == 3 && (p->crack.given.n || pg_problem_grows (p))))
+        PG_TRY (pg_body_search_create (&p->crack.search, &p->cloud, &p->body, &p->part));
     PG_TRY (pg_tips_retreat (p, scene));
     PG_TRY (pg_loads_read (p, scene));
-    for (size_t l = 0; l < p->nload; l++) if (!p->load[l].set) PG_TRY (pg_scene_conclude (scene));
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (!p->boundary.load[l].set) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (pg_initial_read (p, scene));
     PG_TRY (pg_blocks_check (p, scene));
     PG_TRY (pg_interfaces_read (p, scene));
@@ -424,25 +425,26 @@ void pg_problem_free (pg_problem **problem)
     if (!p) return;
     pg_laws_clear (p);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]),
-            pg_free (p->held[s].owned), pg_free (p->held[s].number);
-    intact_free (&p->intact);
-    pg_consistency_free (&p->consistency);
-    pg_patches_free (&p->patches);
+        pg_rows_clear (&p->bonds.rows[s]), pg_free (p->bonds.exempt[s]), pg_free (p->block[s]),
+            pg_free (p->bonds.spacing[s]), pg_free (p->bonds.held[s].owned),
+            pg_free (p->bonds.held[s].number);
+    intact_free (&p->quality.intact);
+    pg_consistency_free (&p->form.consistency);
+    pg_patches_free (&p->form.patches);
     pg_sums_free (&p->sums);
     pg_free (p->options);
     pg_stages_clear (p), pg_loads_clear (p), pg_initial_clear (p);
     pg_criterion_clear (p->criterion, p->nmaterial);
-    pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->interface);
+    pg_free (p->bonds.facet_normal), pg_free (p->boundary.gauge), pg_free (p->at.interface);
     pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);
     pg_lattice_clear (&p->lattice);
     pg_between_free (&p->between);
-    pg_cracks_clear (&p->cracks), pg_cracks_clear (&p->slots);
-    for (size_t f = 0; p->front && f < p->nfront; f++) pg_front_clear (&p->front[f]);
-    pg_free (p->tip), pg_free (p->front), pg_body_search_free (&p->search);
+    pg_cracks_clear (&p->crack.given), pg_cracks_clear (&p->crack.slots);
+    for (size_t f = 0; p->crack.front && f < p->crack.nfront; f++) pg_front_clear (&p->crack.front[f]);
+    pg_free (p->crack.tip), pg_free (p->crack.front), pg_body_search_free (&p->crack.search);
     pg_mesh_body_clear (&p->part);
     pg_body_clear (&p->body);
     pg_free (p);

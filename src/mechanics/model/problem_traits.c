@@ -45,9 +45,9 @@ int pg_problem_by_facets (const pg_problem *p, const pg_scene *scene)
 void pg_problem_note (pg_problem *p, const char *format, ...)
 {
     va_list args;
-    if (p->nnote == sizeof p->note / sizeof *p->note) return;
+    if (p->notes.n == sizeof p->notes.text / sizeof *p->notes.text) return;
     va_start (args, format);
-    vsnprintf (p->note[p->nnote++], sizeof *p->note, format, args);
+    vsnprintf (p->notes.text[p->notes.n++], sizeof *p->notes.text, format, args);
     va_end (args);
 }
 
@@ -63,17 +63,18 @@ int pg_problem_grows (const pg_problem *p)
  * vanishes at by design. */
 int pg_problem_proportional (const pg_problem *p)
 {
-    if (p->nstage || pg_problem_strained (p)) return 0;
-    for (size_t i = 0; i < p->nload; i++) {
-        if (p->load[i].proportional) continue;
+    if (p->boundary.nstage || pg_problem_strained (p)) return 0;
+    for (size_t i = 0; i < p->boundary.nload; i++) {
+        if (p->boundary.load[i].proportional) continue;
         /* a displacement held at zero is proportional too */
         static const double places[3][3] = { { 0.37, -0.21, 0.83 },
                                              { -1.3, 2.7, 0.11 },
                                              { 5.1, 0.77, -3.9 } };
-        int held = pg_load_prescribes (&p->load[i]) || p->load[i].kind == PG_SPRING;
-        for (int k = 0; k < pg_load_components (&p->load[i], p->dim) && held; k++)
+        int held = pg_load_prescribes (&p->boundary.load[i]) || p->boundary.load[i].kind == PG_SPRING;
+        for (int k = 0; k < pg_load_components (&p->boundary.load[i], p->dim) && held; k++)
             for (int q = 0; q < 9 && held; q++)
-                held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
+                held = pg_load_value (&p->boundary.load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3))
+                       == 0;
         if (!held) return 0;
     }
     return 1;
@@ -103,11 +104,11 @@ static int is_affine (const pg_load *load, int k, int dim, const double *x)
 int pg_problem_affine (const pg_problem *p)
 {
     if (pg_problem_strained (p)) return 0;             /* equilibria after breaks do not know free strains */
-    if (p->nstage) return 1;                           /* each of them is so by itself */
+    if (p->boundary.nstage) return 1;                           /* each of them is so by itself */
     double middle[3] = { 0 };
     for (int k = 0; k < p->dim; k++) middle[k] = 0.37 * p->cloud.low[k] + 0.63 * p->cloud.high[k];
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         int components = load->kind == PG_PRESSURE ? 1 : pg_load_components (load, p->dim);
         size_t n = pg_load_separates (load) ? 0 : load->set->npoint;
         for (int k = 0; k < components; k++) {

@@ -284,7 +284,7 @@ static int on_a_crack (const pg_problem *p, size_t i)
  * own points are joined with. */
 static void join_points (const pg_problem *p, int *parent)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     size_t n = p->cloud.n;
     pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++) {
@@ -392,7 +392,7 @@ pg_status pg_remark_parts (pg_problem *p)
     part *mine = NULL;
     void *all = NULL;
     size_t bytes = 0;
-    if (p->cracks.n + p->slots.n == 0) return PG_OK;
+    if (p->crack.given.n + p->crack.slots.n == 0) return PG_OK;
     PG_ALLOC (parent, p->cloud.n);
     PG_ALLOC (label, p->cloud.n);
     PG_ALLOC (mine, p->cloud.n);
@@ -416,8 +416,8 @@ pg_status pg_remark_contrast (pg_problem *p)
     pg_status status = PG_OK;
     unsigned char *seen = NULL;
     if (!p->method->shape_functions || p->nmaterial < 2) return PG_OK;
-    int set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
-    const pg_rows *r = &p->rows[set];
+    int set = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
+    const pg_rows *r = &p->bonds.rows[set];
     PG_ALLOC (seen, p->cloud.n);
     for (size_t soft = 0; soft < p->nmaterial; soft++) {
         double all = 0, held = 0, most = 0;

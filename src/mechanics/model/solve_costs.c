@@ -101,20 +101,20 @@ static int stands_behind (const pg_problem *p)
  * proportions that holds as many. Without shape functions there is nothing to count. */
 pg_solve_counts pg_solve_count (const pg_problem *p)
 {
-    if (!p->approx.type || !p->integration) return (pg_solve_counts) { .dim = p->dim };
-    int set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    if (!p->form.approx.type || !p->form.integration) return (pg_solve_counts) { .dim = p->dim };
+    int set = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
     double low[3] = { 0 }, high[3] = { 0 }, box = 1;
     pg_solve_counts c = { .dim = p->dim,
                           .components = pg_problem_unknowns (p),
-                          .order = p->approx.order,
-                          .interpolates = p->approx.type->interpolates,
-                          .projected = p->patches != NULL,
+                          .order = p->form.approx.order,
+                          .interpolates = p->form.approx.type->interpolates,
+                          .projected = p->form.patches != NULL,
                           .behind = stands_behind (p),
-                          .scattered = p->integration->at_nodes && !p->cloud.regular,
+                          .scattered = p->form.integration->at_nodes && !p->cloud.regular,
                           .points = (double) p->cloud.n,
-                          .evaluation = (double) p->rows[set].n,
-                          .bonds = (double) (p->first_bond[set + 1] - p->first_bond[set]),
-                          .reach = p->approx.horizon / p->cloud.h,
+                          .evaluation = (double) p->bonds.rows[set].n,
+                          .bonds = (double) (p->bonds.first[set + 1] - p->bonds.first[set]),
+                          .reach = p->form.approx.horizon / p->cloud.h,
                           .edge = { 1, 1, 1 } };
     pg_problem_box (p, low, high);
     for (int k = 0; k < p->dim; k++) box *= c.edge[k] = fmax (high[k] - low[k], p->cloud.h);

@@ -19,12 +19,12 @@ static int follows (const pg_load *load) { return load->ntable > 0; }
 
 void pg_stages_follow (pg_problem *p, const double *share)
 {
-    for (size_t i = 0; i < p->nload; i++) {
-        double *row = p->load[i].table;
-        if (!follows (&p->load[i])) continue;
+    for (size_t i = 0; i < p->boundary.nload; i++) {
+        double *row = p->boundary.load[i].table;
+        if (!follows (&p->boundary.load[i])) continue;
         row[0] = row[1] = 0;
-        for (size_t k = 0; k < p->nstage; k++) {
-            double target = p->stage[k].target[i], from = row[2*k + 1], s = share ? share[k] : 1;
+        for (size_t k = 0; k < p->boundary.nstage; k++) {
+            double target = p->boundary.stage[k].target[i], from = row[2*k + 1], s = share ? share[k] : 1;
             row[2*k + 2] = (double) (k + 1);
             row[2*k + 3] = isnan (target) ? from : s == 1 ? target : from + (target - from) * s;
         }
@@ -33,8 +33,10 @@ void pg_stages_follow (pg_problem *p, const double *share)
 
 int pg_stage_loads (const pg_problem *p, size_t stage)
 {
-    for (size_t i = 0; i < p->nload; i++)
-        if (follows (&p->load[i]) && p->load[i].table[2*stage + 1] != p->load[i].table[2*stage + 3]) return 1;
+    for (size_t i = 0; i < p->boundary.nload; i++)
+        if (follows (&p->boundary.load[i])
+            && p->boundary.load[i].table[2 * stage + 1] != p->boundary.load[i].table[2 * stage + 3])
+            return 1;
     return 0;
 }
 
@@ -44,13 +46,13 @@ pg_status pg_problem_staged (pg_problem **out, const pg_problem *problem)
     pg_problem *p = NULL;
     PG_ALLOC (p, 1);
     *p = *problem;
-    p->load = NULL;
-    PG_ALLOC (p->load, p->nload);
-    memcpy (p->load, problem->load, p->nload * sizeof *p->load);
-    for (size_t i = 0; i < p->nload; i++) p->load[i].table = NULL;
-    for (size_t i = 0; i < p->nload; i++) {
-        if (!follows (&p->load[i])) continue;
-        PG_ALLOC (p->load[i].table, 2 * p->load[i].ntable);
+    p->boundary.load = NULL;
+    PG_ALLOC (p->boundary.load, p->boundary.nload);
+    memcpy (p->boundary.load, problem->boundary.load, p->boundary.nload * sizeof *p->boundary.load);
+    for (size_t i = 0; i < p->boundary.nload; i++) p->boundary.load[i].table = NULL;
+    for (size_t i = 0; i < p->boundary.nload; i++) {
+        if (!follows (&p->boundary.load[i])) continue;
+        PG_ALLOC (p->boundary.load[i].table, 2 * p->boundary.load[i].ntable);
     }
     pg_stages_follow (p, NULL);
     *out = p, p = NULL;
@@ -63,8 +65,8 @@ void pg_problem_staged_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
     if (!p) return;
-    for (size_t i = 0; p->load && i < p->nload; i++) pg_free (p->load[i].table);
-    pg_free (p->load);
+    for (size_t i = 0; p->boundary.load && i < p->boundary.nload; i++) pg_free (p->boundary.load[i].table);
+    pg_free (p->boundary.load);
     pg_free (p);
     *problem = NULL;
 }
@@ -72,27 +74,27 @@ void pg_problem_staged_free (pg_problem **problem)
 /* ---- removal ------------------------------------------------------------------------------------------- */
 int pg_problem_removes (const pg_problem *p)
 {
-    for (size_t k = 0; k < p->nstage; k++) if (p->stage[k].remove) return 1;
+    for (size_t k = 0; k < p->boundary.nstage; k++) if (p->boundary.stage[k].remove) return 1;
     return 0;
 }
 
 pg_status pg_stage_removes (const pg_problem *p, size_t stage, const unsigned char *alive, pg_changes *out)
 {
     pg_status status = PG_OK;
-    const pg_set *set = p->stage[stage].remove;
+    const pg_set *set = p->boundary.stage[stage].remove;
     unsigned char *gone = NULL;
     PG_ALLOC (gone, p->cloud.n);
     for (size_t i = 0; i < set->npoint; i++) gone[set->point[i]] = 1;
     out->n = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        const pg_family *f = &p->rows[s].family;
-        for (size_t q = 0; q < p->rows[s].n; q++) {
+        const pg_family *f = &p->bonds.rows[s].family;
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
             int nearest = s == PG_NODES ? (int) q : pg_bonds_nearest (p, s, q);
             int all = nearest >= 0 && gone[nearest];
             for (size_t b = f->start[q]; b < f->start[q + 1]; b++) {
-                if (!(all || gone[f->node[b]]) || !alive[p->first_bond[s] + b]) continue;
+                if (!(all || gone[f->node[b]]) || !alive[p->bonds.first[s] + b]) continue;
                 PG_GROW (out->bond, out->cap, out->n + 1);
-                out->bond[out->n++] = p->first_bond[s] + b;
+                out->bond[out->n++] = p->bonds.first[s] + b;
             }
         }
     }
@@ -104,7 +106,8 @@ done:
 /* ---- reading ------------------------------------------------------------------------------------------- */
 static long load_named (const pg_problem *p, const char *name)
 {
-    for (size_t i = 0; i < p->nload; i++) if (strcmp (p->load[i].name, name) == 0) return (long) i;
+    for (size_t i = 0; i < p->boundary.nload; i++)
+        if (strcmp (p->boundary.load[i].name, name) == 0) return (long) i;
     return -1;
 }
 
@@ -113,8 +116,9 @@ static void list_names (const pg_problem *p, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = 0;
-    for (size_t i = 0; i < p->nload && used < size; i++)
-        used += (size_t) snprintf (text + used, size - used, "%s%s", used ? ", " : "", p->load[i].name);
+    for (size_t i = 0; i < p->boundary.nload && used < size; i++)
+        used += (size_t) snprintf (text + used, size - used, "%s%s", used ? ", " : "",
+                                   p->boundary.load[i].name);
 }
 
 /* The loads that the stage moves, and where to. */
@@ -123,15 +127,15 @@ static pg_status read_targets (pg_problem *p, pg_stage *stage, const pg_scene *s
     pg_status status = PG_OK;
     const char *name;
     char path[160], names[400];
-    PG_ALLOC (stage->target, p->nload);
-    for (size_t i = 0; i < p->nload; i++) stage->target[i] = NAN;
+    PG_ALLOC (stage->target, p->boundary.nload);
+    for (size_t i = 0; i < p->boundary.nload; i++) stage->target[i] = NAN;
     list_names (p, names, sizeof names);
     for (size_t i = 0; (name = pg_scene_name (scene, i, "stages[%zu].boundary", k)); i++) {
         long load = load_named (p, name);
         snprintf (path, sizeof path, "stages[%zu].boundary.%.80s", k, name);
         if (load < 0)
             pg_scene_fault (scene, path, "no entry of boundary has this name; there are %s", names);
-        else if (!follows (&p->load[load]))
+        else if (!follows (&p->boundary.load[load]))
             pg_scene_fault (scene, path,
                             "boundary[%ld] has ramp: constant, so that it acts in full in all stages: leave "
                             "one of the two out",
@@ -161,7 +165,7 @@ static const char *gauge_name (const void *scene, size_t i)
 }
 static const char *load_name (const void *problem, size_t i)
 {
-    return ((const pg_problem *) problem)->load[i].name;
+    return ((const pg_problem *) problem)->boundary.load[i].name;
 }
 
 /* Of two keys that say one thing together both or none must be there. */
@@ -181,7 +185,7 @@ static void read_until (const pg_problem *p, pg_stage *stage, const pg_scene *sc
     static const char *const growth[] = { "crack_length", "crack_area" };
     stage->gauge = refer (scene, k, "gauge", pg_scene_count (scene, "output.gauges"), gauge_name, scene,
                           "entry of output.gauges");
-    stage->load = refer (scene, k, "load", p->nload, load_name, p, "entry of boundary");
+    stage->load = refer (scene, k, "load", p->boundary.nload, load_name, p, "entry of boundary");
     need_both (scene, k, "gauge", "opening"), need_both (scene, k, "load", "drop");
     if (stage->gauge >= 0) stage->opening = pg_scene_number (scene, "stages[%zu].until.opening", k);
     if (stage->load >= 0) stage->drop = pg_scene_number (scene, "stages[%zu].until.drop", k);
@@ -214,8 +218,8 @@ static int share_points (const pg_problem *p, const pg_set *a, const pg_set *b)
 /* Loads on points and supports have to be elsewhere; what acts by shape functions goes with its place. */
 static void check_loads (const pg_problem *p, const pg_set *remove, const pg_scene *scene, const char *path)
 {
-    for (size_t i = 0; i < p->nload; i++) {
-        const pg_load *load = &p->load[i];
+    for (size_t i = 0; i < p->boundary.nload; i++) {
+        const pg_load *load = &p->boundary.load[i];
         int on_points = load->kind != PG_TRACTION && load->kind != PG_PRESSURE && load->kind != PG_BODY_FORCE;
         if (load->cracks || (!on_points && p->method->shape_functions)) continue;
         if (share_points (p, load->set, remove))
@@ -243,12 +247,13 @@ static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *
         pg_scene_fault (scene, path,
                         "cracks that grow by facets do not know the new surface so far: use a criterion of "
                         "bonds, or none");
-    if (p->cracks.n)
+    if (p->crack.given.n)
         pg_scene_fault (scene, path, "does not go with cracks of the scene so far");
     check_loads (p, stage->remove, scene, path);
     for (size_t i = 0; i < k; i++)
-        if (p->stage[i].remove && share_points (p, p->stage[i].remove, stage->remove))
-            pg_scene_fault (scene, path, "shares points with what stage %s removes", p->stage[i].name);
+        if (p->boundary.stage[i].remove && share_points (p, p->boundary.stage[i].remove, stage->remove))
+            pg_scene_fault (scene, path, "shares points with what stage %s removes",
+                            p->boundary.stage[i].name);
 }
 
 /* Is there any value in the load that is not zero? Asked at places at which no formula vanishes by design. */
@@ -265,15 +270,15 @@ static int is_zero (const pg_load *load, int dim)
 static void find_idle (const pg_problem *p, const pg_scene *scene)
 {
     char path[64];
-    for (size_t i = 0; i < p->nload; i++) {
-        int named = !follows (&p->load[i]) || is_zero (&p->load[i], p->dim);
-        for (size_t k = 0; k < p->nstage; k++) named |= !isnan (p->stage[k].target[i]);
+    for (size_t i = 0; i < p->boundary.nload; i++) {
+        int named = !follows (&p->boundary.load[i]) || is_zero (&p->boundary.load[i], p->dim);
+        for (size_t k = 0; k < p->boundary.nstage; k++) named |= !isnan (p->boundary.stage[k].target[i]);
         snprintf (path, sizeof path, "boundary[%zu].set", i);
         if (!named)
             pg_scene_fault (scene, path,
                             "no stage names this load (%s), so that it would never act: name it under "
                             "stages[].boundary, or give it ramp: constant to act from the start",
-                            p->load[i].name);
+                            p->boundary.load[i].name);
     }
 }
 
@@ -281,9 +286,9 @@ static void find_idle (const pg_problem *p, const pg_scene *scene)
 static void check_names (const pg_problem *p, const pg_scene *scene)
 {
     char path[64];
-    for (size_t k = 1; k < p->nstage; k++)
+    for (size_t k = 1; k < p->boundary.nstage; k++)
         for (size_t i = 0; i < k; i++) {
-            if (strcmp (p->stage[k].name, p->stage[i].name) != 0) continue;
+            if (strcmp (p->boundary.stage[k].name, p->boundary.stage[i].name) != 0) continue;
             snprintf (path, sizeof path, "stages[%zu].name", k);
             pg_scene_fault (scene, path, "stages[%zu] has this name too", i);
         }
@@ -309,11 +314,11 @@ pg_status pg_stages_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     char path[64];
-    p->nstage = pg_scene_count (scene, "stages");
-    if (!p->nstage) return PG_OK;
-    PG_ALLOC (p->stage, p->nstage);
-    for (size_t k = 0; k < p->nstage; k++) {
-        pg_stage *stage = &p->stage[k];
+    p->boundary.nstage = pg_scene_count (scene, "stages");
+    if (!p->boundary.nstage) return PG_OK;
+    PG_ALLOC (p->boundary.stage, p->boundary.nstage);
+    for (size_t k = 0; k < p->boundary.nstage; k++) {
+        pg_stage *stage = &p->boundary.stage[k];
         snprintf (stage->name, sizeof stage->name, "%s", pg_scene_text (scene, "stages[%zu].name", k));
         if (pg_scene_given (scene, "stages[%zu].steps", k))
             stage->steps = pg_scene_integer (scene, "stages[%zu].steps", k);
@@ -321,9 +326,10 @@ pg_status pg_stages_read (pg_problem *p, const pg_scene *scene)
         read_until (p, stage, scene, k);
         read_removal (p, stage, scene, k);
     }
-    for (size_t i = 0; i < p->nload; i++)
+    for (size_t i = 0; i < p->boundary.nload; i++)
         for (int c = 0; c < 3; c++) {
-            if (!p->load[i].value[c] || !pg_expression_uses (p->load[i].value[c], 't')) continue;
+            if (!p->boundary.load[i].value[c] || !pg_expression_uses (p->boundary.load[i].value[c], 't'))
+                continue;
             snprintf (path, sizeof path, "boundary[%zu]", i);
             pg_scene_fault (scene, path, "with stages a value may not depend on t: they say how it grows");
             break;
@@ -337,6 +343,7 @@ done:
 
 void pg_stages_clear (pg_problem *p)
 {
-    for (size_t k = 0; p->stage && k < p->nstage; k++) pg_free (p->stage[k].target);
-    pg_free (p->stage);
+    for (size_t k = 0; p->boundary.stage && k < p->boundary.nstage; k++)
+        pg_free (p->boundary.stage[k].target);
+    pg_free (p->boundary.stage);
 }

@@ -21,25 +21,27 @@ static double nothing_of (const pg_problem *p) { return PG_NO_LENGTH * p->cloud.
 
 pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
 {
-    return pg_paths_of (out, &p->cracks, p->tip, p->ntip, nothing_of (p));
+    return pg_paths_of (out, &p->crack.given, p->crack.tip, p->crack.ntip, nothing_of (p));
 }
 
 pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *p)
 {
-    return pg_surfaces_of (out, &p->cracks, p->front, p->nfront, nothing_of (p));
+    return pg_surfaces_of (out, &p->crack.given, p->crack.front, p->crack.nfront, nothing_of (p));
 }
 
 /* A facet has cut one bond at least. A vertex of a surface has cut some bond, or lies beside one that has:
  * there are not more than a hundred for each bond. */
 pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const char *name, const pg_keeper *k)
 {
-    return pg_paths_keep (w, (long) (p->cracks.n + p->ntip + p->first_bond[PG_BOND_SETS]), name, k);
+    return pg_paths_keep (w, (long) (p->crack.given.n + p->crack.ntip + p->bonds.first[PG_BOND_SETS]), name,
+                          k);
 }
 
 pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, const char *name,
                                   const pg_keeper *k)
 {
-    return pg_surfaces_keep (w, 1000 + 100 * (long) (p->cracks.n + p->first_bond[PG_BOND_SETS]), name, k);
+    return pg_surfaces_keep (w, 1000 + 100 * (long) (p->crack.given.n + p->bonds.first[PG_BOND_SETS]), name,
+                             k);
 }
 
 /* One block of memory; pre-cracks cut their bonds, points have the velocity that the scene gives them.
@@ -47,7 +49,7 @@ pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, con
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components)
 {
     pg_status status = PG_OK;
-    size_t ndof = problem->cloud.n * (size_t) components, nbond = problem->first_bond[PG_BOND_SETS];
+    size_t ndof = problem->cloud.n * (size_t) components, nbond = problem->bonds.first[PG_BOND_SETS];
     size_t bytes = (sizeof (pg_state) + 63) / 64 * 64 + 3 * ndof * sizeof (double) + nbond;
     pg_state *s = pg_calloc (bytes, 1);
     if (!s) PG_FAIL (PG_E_MEMORY, "no memory for a state of %zu bytes", bytes);

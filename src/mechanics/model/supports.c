@@ -91,7 +91,7 @@ static const char *key_of (const pg_load *load)
 static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int k, int kind, size_t smaller,
                   const conflict *c)
 {
-    const pg_load *a = &p->load[i], *b = &p->load[l];
+    const pg_load *a = &p->boundary.load[i], *b = &p->boundary.load[l];
     char path[96], other[96], line[32] = "", at[80] = "";
     const char *unit = pg_load_rotates (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point",
                *many = c->differ > 1 ? "s" : "", *verb = c->differ > 1 ? "belong" : "belongs";
@@ -128,9 +128,9 @@ static int comparable (const pg_load *a, const pg_load *b, int k)
  * quasi-static 1. */
 void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
 {
-    for (size_t l = 1; l < p->nload; l++)
+    for (size_t l = 1; l < p->boundary.nload; l++)
         for (size_t i = 0; i < l; i++) {
-            const pg_load *a = &p->load[i], *b = &p->load[l];
+            const pg_load *a = &p->boundary.load[i], *b = &p->boundary.load[l];
             int kind = -1;
             held first = { 0 }, second = { 0 };
             for (int k = 0; k < pg_load_components (a, p->dim); k++) {
@@ -146,7 +146,7 @@ void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
  * their own point. */
 static int eliminates (const pg_problem *p, const pg_load *load)
 {
-    return p->method->shape_functions && !p->approx.type->interpolates && load->set
+    return p->method->shape_functions && !p->form.approx.type->interpolates && load->set
         && pg_load_prescribes (load)
            && load->essential == PG_ESSENTIAL_TRANSFORMATION;
 }
@@ -155,10 +155,11 @@ void pg_supports_check_eliminated (const pg_problem *p, const pg_scene *scene)
 {
     for (int k = 0; k < p->dim; k++) {
         size_t n = 0, largest = 0;
-        for (size_t l = 0; l < p->nload; l++) {
-            if (!eliminates (p, &p->load[l]) || !p->load[l].value[k]) continue;
-            if (n == 0 || p->load[l].set->npoint > p->load[largest].set->npoint) largest = l;
-            n += p->load[l].set->npoint;
+        for (size_t l = 0; l < p->boundary.nload; l++) {
+            if (!eliminates (p, &p->boundary.load[l]) || !p->boundary.load[l].value[k]) continue;
+            if (n == 0 || p->boundary.load[l].set->npoint > p->boundary.load[largest].set->npoint)
+                largest = l;
+            n += p->boundary.load[l].set->npoint;
         }
         if (n <= PG_MOST_ELIMINATED) continue;
         char path[64];

@@ -43,26 +43,26 @@ static const row sliding[4] = { { 1.6, 1.23 }, { 2, 0.7 }, { 2.5, 1.19 }, { 3, 1
 
 static double closed_offset_of (const pg_problem *p, const pg_scene *scene)
 {
-    double horizon = p->approx.horizon / p->cloud.h;
-    if (pg_scene_given (scene, "method.tip_offset") || !p->method->shape_functions || p->integration->at_nodes
-        || !p->approx.type->exact)
-        return p->tip_offset;
-    if (p->approx.order == 2) return p->tip_offset + 0.5 * p->cloud.h;
-    return fmax (p->tip_offset, p->cloud.h * interpolated (sliding, 4, horizon));
+    double horizon = p->form.approx.horizon / p->cloud.h;
+    if (pg_scene_given (scene, "method.tip_offset") || !p->method->shape_functions
+        || p->form.integration->at_nodes || !p->form.approx.type->exact)
+        return p->crack.tip_offset;
+    if (p->form.approx.order == 2) return p->crack.tip_offset + 0.5 * p->cloud.h;
+    return fmax (p->crack.tip_offset, p->cloud.h * interpolated (sliding, 4, horizon));
 }
 
 /* In m where the local spacing is h. */
 static double offset_of (const pg_problem *p, const pg_scene *scene)
 {
-    double horizon = p->approx.horizon / p->cloud.h;
+    double horizon = p->form.approx.horizon / p->cloud.h;
     if (pg_scene_given (scene, "method.tip_offset"))
         return pg_scene_length (scene, p->cloud.h, "method.tip_offset");
     if (!p->method->shape_functions)
         return pg_problem_grows (p) && p->method->tip_offset ? p->method->tip_offset (p) * p->cloud.h : 0;
-    if (p->integration->at_nodes) return NODAL * p->cloud.h;
+    if (p->form.integration->at_nodes) return NODAL * p->cloud.h;
     return p->cloud.h
-           * interpolated ((p->approx.type->exact ? exact : approximate)[p->approx.order == 2], ROWS,
-                           horizon);
+           * interpolated ((p->form.approx.type->exact ? exact : approximate)[p->form.approx.order == 2],
+                           ROWS, horizon);
 }
 
 /* ---- where the body is --------------------------------------------------------------------------------- */
@@ -88,8 +88,8 @@ static int meets_other (const surroundings *s, size_t crack, const double *x)
 {
     const pg_problem *p = s->p;
     double reach = fmax (s->offset, 1e-6 * p->cloud.h) * pg_problem_spacing_at (s->p, x) / p->cloud.h;
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (c != crack && pg_crack_touches (&p->cracks.crack[c], p->dim, x, reach)) return 1;
+    for (size_t c = 0; c < p->crack.given.n; c++)
+        if (c != crack && pg_crack_touches (&p->crack.given.crack[c], p->dim, x, reach)) return 1;
     return 0;
 }
 
@@ -175,9 +175,13 @@ static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, doubl
         out[end] = tip ? fmin (retreat_at (s, x), 0.25 * length) : 0;
         if (!tip) continue;
         add_front (s, k, x, ahead, 1);
-        s->p->tip[s->p->ntip] = (pg_tip) { .id = (long) s->p->ntip + 1, .segment = k, .end = end, .open = 1,
-                                           .x = { x[0], x[1] }, .offset = out[end] };
-        s->p->ntip++;
+        s->p->crack.tip[s->p->crack.ntip] = (pg_tip){ .id = (long) s->p->crack.ntip + 1,
+                                                      .segment = k,
+                                                      .end = end,
+                                                      .open = 1,
+                                                      .x = { x[0], x[1] },
+                                                      .offset = out[end] };
+        s->p->crack.ntip++;
     }
 }
 
@@ -263,17 +267,17 @@ static int boxes_meet (const extent *a, const extent *b)
 /* What hangs together counts as one crack: into the extent of its first. */
 static void join (const pg_problem *p, extent *e)
 {
-    for (size_t k = 0; k < p->cracks.n; k++) e[k].group = k, box_of (p, &p->cracks.crack[k], &e[k]);
-    for (size_t k = 1; k < p->cracks.n; k++)
+    for (size_t k = 0; k < p->crack.given.n; k++) e[k].group = k, box_of (p, &p->crack.given.crack[k], &e[k]);
+    for (size_t k = 1; k < p->crack.given.n; k++)
         for (size_t j = 0; j < k; j++) {
             size_t from = e[k].group, to = e[j].group;
             if (from == to || !boxes_meet (&e[k], &e[j])
-                || !joined (p, &p->cracks.crack[k], &p->cracks.crack[j]))
+                || !joined (p, &p->crack.given.crack[k], &p->crack.given.crack[j]))
                 continue;
             for (size_t i = 0; i <= k; i++)
                 if (e[i].group == from || e[i].group == to) e[i].group = from < to ? from : to;
         }
-    for (size_t k = 1; k < p->cracks.n; k++) {
+    for (size_t k = 1; k < p->crack.given.n; k++) {
         extent *first = &e[e[k].group];
         if (first == &e[k]) continue;
         if (e[k].front > 0)
@@ -302,8 +306,10 @@ static double sensitivity (const extent *e, int dim)
 static double known_to (const pg_problem *p)
 {
     if (!p->method->shape_functions) return BETWEEN_POINTS;
-    const pg_approx_type *a = p->approx.type;
-    return p->integration->at_nodes ? a->tip.nodal : p->approx.order == 2 ? a->tip.quadratic : a->tip.linear;
+    const pg_approx_type *a = p->form.approx.type;
+    return p->form.integration->at_nodes ? a->tip.nodal
+           : p->form.approx.order == 2   ? a->tip.quadratic
+                                         : a->tip.linear;
 }
 
 /* Of the crack whose opening is known worst. */
@@ -314,7 +320,7 @@ static void tell (pg_problem *p, const pg_scene *scene, extent *e)
     char remedy[80] = "";
     if (!pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC)) return;
     join (p, e);
-    for (size_t k = 0; k < p->cracks.n; k++) {
+    for (size_t k = 0; k < p->crack.given.n; k++) {
         if (e[k].group != k || !(e[k].front > 0) || !(e[k].size > 0)) continue;
         double share = spacings * e[k].spacing * sensitivity (&e[k], p->dim);
         if (share > worst) worst = share, at = k;
@@ -337,18 +343,18 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     surroundings s = { .p = p };
     double *out = NULL, **made = NULL;
-    s.offset = p->tip_offset = offset_of (p, scene);
-    p->closed_tip_offset = closed_offset_of (p, scene);
-    if (p->cracks.n == 0) return PG_OK;
+    s.offset = p->crack.tip_offset = offset_of (p, scene);
+    p->crack.closed_tip_offset = closed_offset_of (p, scene);
+    if (p->crack.given.n == 0) return PG_OK;
     const pg_ground ground = pg_problem_ground (p);
-    if (p->dim == 2) PG_ALLOC (p->tip, 2 * p->cracks.n);
+    if (p->dim == 2) PG_ALLOC (p->crack.tip, 2 * p->crack.given.n);
     if (p->dim == 3 && !p->method->shape_functions && !(s.offset > 0))
-        return pg_fronts_find (&ground, &p->cracks, NULL, &p->front, &p->nfront);
-    PG_ALLOC (made, p->cracks.n);
-    PG_ALLOC (s.extent, p->cracks.n);
+        return pg_fronts_find (&ground, &p->crack.given, NULL, &p->crack.front, &p->crack.nfront);
+    PG_ALLOC (made, p->crack.given.n);
+    PG_ALLOC (s.extent, p->crack.given.n);
     /* all before any: an end on another crack is none of its own */
-    for (size_t k = 0; k < p->cracks.n; k++) {
-        pg_crack *c = &p->cracks.crack[k];
+    for (size_t k = 0; k < p->crack.given.n; k++) {
+        pg_crack *c = &p->crack.given.crack[k];
         PG_ALLOC (out, c->nvertex);
         if (c->kind == PG_CRACK_SEGMENT) retreat_segment (&s, k, c, out);
         else if (c->kind == PG_CRACK_DISC) retreat_disc (&s, k, c, out);
@@ -358,12 +364,13 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     /* before they retreat: cracks as drawn */
     if (p->method->shape_functions || pg_problem_grows (p)) tell (p, scene, s.extent);
     if (p->dim == 3)
-        PG_TRY (pg_fronts_find (&ground, &p->cracks, s.offset > 0 ? made : NULL, &p->front, &p->nfront));
-    for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
-        p->cracks.crack[k].retreat = made[k], made[k] = NULL;
-    PG_TRY (pg_cracks_index (&p->cracks));             /* a segment may cut beyond its ends */
+        PG_TRY (pg_fronts_find (&ground, &p->crack.given, s.offset > 0 ? made : NULL, &p->crack.front,
+                                &p->crack.nfront));
+    for (size_t k = 0; s.offset > 0 && k < p->crack.given.n; k++)
+        p->crack.given.crack[k].retreat = made[k], made[k] = NULL;
+    PG_TRY (pg_cracks_index (&p->crack.given));             /* a segment may cut beyond its ends */
 done:
-    for (size_t k = 0; made && k < p->cracks.n; k++) pg_free (made[k]);
+    for (size_t k = 0; made && k < p->crack.given.n; k++) pg_free (made[k]);
     pg_free (made), pg_free (out), pg_free (s.extent);
     return status;
 }

@@ -114,12 +114,12 @@ pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p,
     PG_TRY (put (&w, "spacing: %.17g\nlattice: %s\ncells: staircase\nmethod:\n", size->wanted,
                  vertices ? "nodes" : "cells"));
     PG_TRY (put_keys (&w, scene, "method.", "method."));
-    PG_TRY (put (&w, "  horizon: %.17g\n", p->approx.horizon));
+    PG_TRY (put (&w, "  horizon: %.17g\n", p->form.approx.horizon));
     snprintf (material, sizeof material, "materials.%.63s.", p->material[0].name);
     PG_TRY (put (&w, "materials:\n  m:\n"));
     PG_TRY (put_keys (&w, scene, "materials.{}.", material));
-    if (pg_problem_graded (p) && !isnan (p->vary[0].reference[PG_OF_STIFFNESS]))
-        PG_TRY (put (&w, "    youngs_modulus: %.17g\n", p->vary[0].reference[PG_OF_STIFFNESS]));
+    if (pg_problem_graded (p) && !isnan (p->at.vary[0].reference[PG_OF_STIFFNESS]))
+        PG_TRY (put (&w, "    youngs_modulus: %.17g\n", p->at.vary[0].reference[PG_OF_STIFFNESS]));
     if (!(p->material[0].density > 0)) PG_TRY (put (&w, "    density: 1\n"));
     PG_TRY (put (&w, "failure: {criterion: none}\n"));
     PG_TRY (pg_scene_parse_like (out, scene, w.text, "the lattice of the scene"));

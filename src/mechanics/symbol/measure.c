@@ -82,15 +82,15 @@ static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, cons
     pg_field field[4];
     double points = 1, family = 1, *x = NULL;
     for (int k = 0; k < p->dim; k++)
-        points *= 2 * size->half[k] + 1, family *= 1.7 * p->approx.horizon / size->step[k];
+        points *= 2 * size->half[k] + 1, family *= 1.7 * p->form.approx.horizon / size->step[k];
     double pairs = points * family
-                   * (p->sums ? 1 : 10 * fmax (1, (double) p->rows[PG_POINTS].n / (double) p->cloud.n));
+                   * (p->sums ? 1 : 10 * fmax (1, (double) p->bonds.rows[PG_POINTS].n / (double) p->cloud.n));
     if (pairs > most_pairs)
         PG_FAIL (PG_E_LIMIT,
                  "the waves of this lattice need a box of %.0f points with about %.0f neighbours each, as "
                  "its horizon is %.3g spacings: that is too "
                  "large; take a smaller horizon, or fewer Gauss points",
-                 points, family, p->approx.horizon / size->h);
+                 points, family, p->form.approx.horizon / size->h);
     PG_TRY (box_fits (size, p->dim));
     PG_TRY (box_scene (&b->scene, scene, p, size));
     PG_TRY (pg_problem_build (&b->problem, b->scene, p->threads));
@@ -146,7 +146,8 @@ static int large_enough (const box *b, box_size *size)
         for (int k = 0; k < dim; k++) if (abs (offset[k]) > reach[k]) reach[k] = abs (offset[k]);
     }
     for (int k = 0; k < dim; k++) {
-        int need = reach[k] + 2 + (weighed ? (int) ceil (b->problem->approx.horizon / size->step[k]) : 0);
+        int need = reach[k] + 2
+                   + (weighed ? (int) ceil (b->problem->form.approx.horizon / size->step[k]) : 0);
         if (need > size->half[k]) size->half[k] = need, enough = 0;
     }
     return enough;
@@ -263,7 +264,7 @@ pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_pro
     *out = NULL;
     PG_TRY (box_steps (&size, scene, p));
     for (int k = 0; k < p->dim; k++)
-        size.half[k] = 2 * (int) ceil (p->approx.horizon / size.step[k] - 1e-6) + 2;
+        size.half[k] = 2 * (int) ceil (p->form.approx.horizon / size.step[k] - 1e-6) + 2;
     for (int t = 0; t < TRIES && !whole; t++) {
         clear (&b);
         PG_TRY (build (&b, scene, p, &size));

@@ -48,12 +48,12 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
 void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem *p, char *text, size_t size)
 {
     char where[64];
-    int nodal = p->method->shape_functions && p->integration->at_nodes,
-        nosb = nodal && p->approx.type->interpolates;
+    int nodal = p->method->shape_functions && p->form.integration->at_nodes,
+        nosb = nodal && p->form.approx.type->interpolates;
     const char *cure = nosb    ? "method.stabilization: silling, or method.integration: gauss"
                        : nodal ? "method.integration: gauss"
                        : pg_problem_rotations (p) && v->negative        ? "a smaller Poisson's ratio"
-                       : p->approx.horizon < 1.7 * s->h ? "a larger horizon"
+                       : p->form.approx.horizon < 1.7 * s->h ? "a larger horizon"
                                                         : "another kernel or a smaller horizon";
     if (v->negative) {
         pg_motion_where (&v->smallest, s, where, sizeof where);

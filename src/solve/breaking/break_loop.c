@@ -12,7 +12,7 @@
 pg_status break_loop_ready (break_loop *b)
 {
     pg_status status = PG_OK;
-    size_t nbond = b->system.problem->first_bond[PG_BOND_SETS];
+    size_t nbond = b->system.problem->bonds.first[PG_BOND_SETS];
     if (b->kind) return PG_OK;
     if (!b->utilisation) PG_ALLOC (b->utilisation, nbond);
     if (!b->factor) PG_ALLOC (b->factor, nbond);
@@ -44,8 +44,8 @@ static void locate (const pg_problem *p, pg_broken *out)
 {
     size_t point, dim = (size_t) p->dim;
     pg_problem_locate (p, out->bond, &out->set, &point);
-    const pg_rows *r = &p->rows[out->set];
-    const double *end = p->cloud.x + (size_t) r->family.node[out->bond - p->first_bond[out->set]] * dim;
+    const pg_rows *r = &p->bonds.rows[out->set];
+    const double *end = p->cloud.x + (size_t) r->family.node[out->bond - p->bonds.first[out->set]] * dim;
     for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
@@ -89,12 +89,12 @@ static size_t bond_of (const pg_problem *p, const double *key)
 {
     const pg_subdomain *s = p->cloud.subdomain;
     int set = (int) key[0];
-    const pg_family *f = &p->rows[set].family;
-    size_t point = place_of (f->n, p->held[set].number, (int64_t) key[1]),
+    const pg_family *f = &p->bonds.rows[set].family;
+    size_t point = place_of (f->n, p->bonds.held[set].number, (int64_t) key[1]),
            node = place_of (s->n, s->number, (int64_t) key[2]);
     if (point == f->n || node == s->n) return SIZE_MAX;
     for (size_t e = f->start[point]; e < f->start[point + 1]; e++)
-        if ((size_t) f->node[e] == node) return p->first_bond[set] + e;
+        if ((size_t) f->node[e] == node) return p->bonds.first[set] + e;
     return SIZE_MAX;
 }
 
@@ -114,8 +114,8 @@ static pg_status share_changes (break_loop *b, pg_state *state)
         int set;
         size_t point, bond = b->changes.bond[k];
         pg_problem_locate (p, bond, &set, &point);
-        mine[3 * k] = set, mine[3 * k + 1] = (double) p->held[set].number[point];
-        mine[3 * k + 2] = (double) s->number[p->rows[set].family.node[bond - p->first_bond[set]]];
+        mine[3 * k] = set, mine[3 * k + 1] = (double) p->bonds.held[set].number[point];
+        mine[3 * k + 2] = (double) s->number[p->bonds.rows[set].family.node[bond - p->bonds.first[set]]];
     }
     PG_TRY (pg_ranks_share (3 * own, mine, &n, &all));
     for (size_t k = 0; k < n; k += 3) {
@@ -159,8 +159,8 @@ static double most_of (const break_loop *b, const double *a, double sign, double
     const pg_problem *p = b->system.problem;
     double top = least;
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &p->rows[set].family;
-        const double *of = a + p->first_bond[set];
+        const pg_family *f = &p->bonds.rows[set].family;
+        const double *of = a + p->bonds.first[set];
         for (size_t k = 0; k < f->n; k++) {
             if (!pg_problem_owns (p, set, k)) continue;
             for (size_t e = f->start[k]; e < f->start[k + 1]; e++)
@@ -314,7 +314,7 @@ pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_br
                           const pg_keeper *k)
 {
     return pg_keep_fields (k, name, "bonds", "values", n, PG_ROWS (
-        PG_EACH_IN (broken, bond, 0, p->first_bond[PG_BOND_SETS] - 1, "a broken bond"),
+        PG_EACH_IN (broken, bond, 0, p->bonds.first[PG_BOND_SETS] - 1, "a broken bond"),
         PG_EACH_IN (broken, set, 0, PG_BOND_SETS - 1, "the set of a broken bond"),
         PG_EACH_IN (broken, kind, 0, 127, "the kind of a broken bond"),
         PG_EACH_IN (broken, round, 0, 1L << 50, "the round of a broken bond"),

@@ -94,7 +94,7 @@ pg_status break_loop_save (break_loop *b)
         memcpy (b->start.force, b->before.force, bytes);
         memcpy (b->start.displacement, b->before.displacement, bytes);
     }
-    b->strain0 = b->system.report->energy_strain, b->kinetic0 = b->system.report->energy_kinetic;
+    b->strain0 = b->system.report->energy.strain, b->kinetic0 = b->system.report->energy.kinetic;
     if (b->grower) PG_TRY (b->grower->save (b));
     if (b->system.client) PG_TRY (b->system.client->save (&b->system));
     b->saved = 1;
@@ -114,7 +114,7 @@ void break_loop_return (break_loop *b)
     } else pg_work_balance_clear (&b->before);
     if (b->grower) b->grower->restore (b);
     if (b->system.client) b->system.client->restore (&b->system);
-    b->system.report->energy_strain = b->strain0, b->system.report->energy_kinetic = b->kinetic0;
+    b->system.report->energy.strain = b->strain0, b->system.report->energy.kinetic = b->kinetic0;
 }
 
 pg_status moved_balance (break_loop *b, double t, const double *d, double scale)

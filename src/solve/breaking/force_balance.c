@@ -21,9 +21,10 @@ typedef struct { double force[3], moment[3], size, length; } sums;
 /* Loads and supports; moments are told about places of their own. */
 static void add_loads (const pg_problem *p, const pg_work_balance *w, sums *s)
 {
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
-        const double *R = w->reaction + 3 * l, *M = w->reaction + 3 * (p->nload + l), *at = load->about;
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
+        const double *R = w->reaction + 3 * l, *M = w->reaction + 3 * (p->boundary.nload + l),
+                     *at = load->about;
         if (load->kind == PG_ROTATION || load->kind == PG_MOMENT) continue;
         for (int k = 0; k < 3; k++) {
             int next = (k + 1) % 3, last = (k + 2) % 3;
@@ -93,26 +94,27 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     if (missed > BALANCED * size) size = fmax (size, fmax (s->balance.reference, s->balance.borne));
     /* arms of forces that turn with finite displacements are not those of the places at rest */
     pg_statistics *r = s->report;
-    r->balances++;
-    r->balance_force = fmax (r->balance_force, pg_size (3, all.force) / size);
+    r->balance.states++;
+    r->balance.force = fmax (r->balance.force, pg_size (3, all.force) / size);
     if (p->method->shape_functions)
-        r->balance_moment = fmax (r->balance_moment, pg_size (3, all.moment) / (size * all.length));
+        r->balance.moment = fmax (r->balance.moment, pg_size (3, all.moment) / (size * all.length));
 }
 
 double pg_balance_allowed (const pg_statistics *r, const pg_problem *p)
 {
     double penalty = 0;
-    for (size_t l = 0; l < p->nload; l++)
-        if (pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_PENALTY)
-            penalty = fmax (penalty, p->load[l].penalty);
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (pg_load_prescribes (&p->boundary.load[l])
+            && p->boundary.load[l].essential == PG_ESSENTIAL_PENALTY)
+            penalty = fmax (penalty, p->boundary.load[l].penalty);
     return fmax (fmax (BALANCED, 10 * r->residual_max), 1e-14 * penalty);
 }
 
 void force_balance_warn (pg_statistics *r, const pg_problem *p)
 {
     double allowed = pg_balance_allowed (r, p);
-    if (r->balances == 0 || !(fmax (r->balance_force, r->balance_moment) > allowed)) return;
+    if (r->balance.states == 0 || !(fmax (r->balance.force, r->balance.moment) > allowed)) return;
     pg_statistics_warn (r, "forces miss balance by %.2g, moments by %.2g of the loads (the solver leaves "
                            "%.2g): loads, reactions, inertia and contact do not add up to nothing",
-                        r->balance_force, r->balance_moment, allowed / 10);
+                        r->balance.force, r->balance.moment, allowed / 10);
 }

@@ -29,15 +29,15 @@ pg_status stages_create (pg_solver *s)
     pg_status status = PG_OK;
     stage_path *p = &s->stage;
     const pg_problem *problem = s->problem;
-    if (!problem->nstage) return PG_OK;
+    if (!problem->boundary.nstage) return PG_OK;
     PG_TRY (pg_problem_staged (&p->staged, problem));
-    PG_ALLOC (p->share, problem->nstage);
-    PG_ALLOC (p->record, problem->nstage);
-    PG_ALLOC (p->opening, problem->nstage * problem->ngauge + 1);
-    PG_ALLOC (p->here, 2 * problem->ngauge + 1);
-    memset (p->here, -1, 2 * problem->ngauge);
-    for (size_t k = 0; k < problem->nstage; k++)
-        p->share[k] = 1, p->record[k].gauge = p->opening + k * problem->ngauge;
+    PG_ALLOC (p->share, problem->boundary.nstage);
+    PG_ALLOC (p->record, problem->boundary.nstage);
+    PG_ALLOC (p->opening, problem->boundary.nstage * problem->boundary.ngauge + 1);
+    PG_ALLOC (p->here, 2 * problem->boundary.ngauge + 1);
+    memset (p->here, -1, 2 * problem->boundary.ngauge);
+    for (size_t k = 0; k < problem->boundary.nstage; k++)
+        p->share[k] = 1, p->record[k].gauge = p->opening + k * problem->boundary.ngauge;
     p->now.number = 1;
     s->problem = p->staged;
 done:
@@ -66,8 +66,8 @@ double stage_level (const pg_solver *s)
 
 long stage_steps (const pg_solver *s, long number)
 {
-    if (!s->problem->nstage) return s->options.steps;  /* a caller may have made it one step */
-    long own = s->problem->stage[number - 1].steps;
+    if (!s->problem->boundary.nstage) return s->options.steps;  /* a caller may have made it one step */
+    long own = s->problem->boundary.stage[number - 1].steps;
     return own ? own : PG_OWN (pg_static_options, &s->options)->steps;
 }
 
@@ -113,7 +113,7 @@ pg_status stage_remove (pg_solver *s, pg_state *state)
     pg_system *sys = &b->system;
     double reference;
     forget_removed (s);
-    if (!s->problem->stage[p->now.number - 1].remove) return PG_OK;
+    if (!s->problem->boundary.stage[p->now.number - 1].remove) return PG_OK;
     PG_ALLOC (p->excavated, sys->ndof);
     PG_ALLOC (p->excavated_now, sys->ndof);
     PG_TRY (pg_stage_removes (s->problem, (size_t) p->now.number - 1, state->alive, &b->changes));
@@ -165,7 +165,7 @@ double stage_growth (const pg_state *state)
 static pg_status opening_of (pg_solver *s, const pg_state *state, size_t gauge, const double *d, double *out)
 {
     pg_status status = PG_OK;
-    const pg_gauge *g = &s->problem->gauge[gauge];
+    const pg_gauge *g = &s->problem->boundary.gauge[gauge];
     const pg_system *sys = &s->break_loop.system;
     double end[2][3] = { { NAN, NAN, NAN }, { NAN, NAN, NAN } };
     for (int e = 0; e < 2 && sys->force->sample; e++) {
@@ -182,7 +182,7 @@ done:
 
 static const pg_stage *stage_of (const pg_solver *s)
 {
-    return s->stage.now.number ? &s->problem->stage[s->stage.now.number - 1] : NULL;
+    return s->stage.now.number ? &s->problem->boundary.stage[s->stage.now.number - 1] : NULL;
 }
 
 /* The side from which the gauge comes is that of the state at the start of the stage. */
@@ -259,7 +259,7 @@ pg_status stage_close_step (pg_solver *s, const pg_state *state, pg_step *step)
     if (s->finished && p->now.over == STAGE_GOES_ON) p->now.over = STAGE_RUN;
     if (p->now.over == STAGE_GOES_ON) goto done;
     step->level = 1;
-    if (p->now.number == (long) s->problem->nstage) s->finished = 1;
+    if (p->now.number == (long) s->problem->boundary.nstage) s->finished = 1;
     pg_stage_record *record = &p->record[p->now.number - 1];
     const pg_system *sys = &s->break_loop.system;
     double *gauge = record->gauge;
@@ -268,13 +268,13 @@ pg_status stage_close_step (pg_solver *s, const pg_state *state, pg_step *step)
                                   .step = state->step,
                                   .events = state->events - p->now.first_event,
                                   .share = state->factor - stage_start (s),
-                                  .strain = system_sum (sys, r->energy_strain),
-                                  .external = system_sum (sys, r->energy_external),
-                                  .dissipated = system_sum (sys, r->energy_dissipated),
+                                  .strain = system_sum (sys, r->energy.strain),
+                                  .external = system_sum (sys, r->energy.external),
+                                  .dissipated = system_sum (sys, r->energy.dissipated),
                                   .growth = stage_growth (state) - p->now.first_growth,
                                   .reason = p->now.over,
                                   .gauge = gauge };
-    for (size_t g = 0; g < s->problem->ngauge; g++)
+    for (size_t g = 0; g < s->problem->boundary.ngauge; g++)
         PG_TRY (opening_of (s, state, g, state->d, &gauge[g]));
 done:
     return status;
@@ -282,7 +282,7 @@ done:
 
 const pg_stage_record *pg_solver_stages (const pg_solver *s, size_t *n)
 {
-    *n = s->problem->nstage;
+    *n = s->problem->boundary.nstage;
     return s->stage.record;
 }
 
@@ -300,7 +300,7 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
     pg_status status = PG_OK;
     stage_path *p = &s->stage;
     pg_stage_record *r = p->record;
-    size_t n = s->problem->nstage;
+    size_t n = s->problem->boundary.nstage;
     if (!p->now.number) return PG_OK;
     PG_TRY (keep_place (&p->now, (long) n, "stage.now", k));
     PG_TRY (keep_place (&p->before, (long) n, "stage.before", k));
@@ -319,7 +319,7 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (pg_keep_fields (k, "stage", "records", "record_values", n, PG_ROWS (
         PG_EACH (r, done), PG_EACH_IN (r, reason, 0, REASONS - 1, "why a stage ended"), PG_EACH (r, step),
         PG_EACH (r, events), PG_EACH (r, share), PG_EACH (r, strain), PG_EACH (r, external),
-        PG_EACH (r, dissipated), PG_EACH (r, growth), PG_ITEMS (p->opening, s->problem->ngauge))));
+        PG_EACH (r, dissipated), PG_EACH (r, growth), PG_ITEMS (p->opening, s->problem->boundary.ngauge))));
     for (size_t i = 0; k->reading && i < n; i++) r[i].why = reasons[r[i].reason];
     follow (s);
 done:

@@ -63,7 +63,7 @@ static pg_status refine_columns (pg_system *s, const double *rhs, double *solved
         before = left;
         PG_TRY (s->direct.linear->solve (s->direct.factor, n, rest, step));
         for (size_t k = 0; k < s->nred * n; k++) solved[k] += step[k];
-        s->report->contact_columns += (long) n;
+        s->report->contact.columns += (long) n;
     }
 done:
     pg_free (rest), pg_free (step);
@@ -107,7 +107,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
      * solve makes the factor if there is to be one */
     if (s->choice.mode == SYSTEM_KEPT_FACTOR && f->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
     /* not counted among the solves, of which every so many are measured: a resumed run has these again */
-    long solves = s->report->solves;
+    long solves = s->report->linear.solves;
     size_t first = 0;
     for (; first < n && !system_has_factor (s); first++) {
         if (!needs_column (c, first)) continue;
@@ -121,12 +121,12 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     }
     if (first < n)
         PG_TRY (f->linear->solve (f->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
-    s->report->solves = solves;
-    long columns = s->report->contact_columns;
-    s->report->contact_columns += (long) n;
+    s->report->linear.solves = solves;
+    long columns = s->report->contact.columns;
+    s->report->contact.columns += (long) n;
     PG_TRY (refine_columns (s, rhs, solved, n));
     /* nor are these columns among those of the run, when a resumed one has them again */
-    if (c->again == f->revision + 1) s->report->contact_columns = columns;
+    if (c->again == f->revision + 1) s->report->contact.columns = columns;
     c->again = 0;
     for (size_t j = 0; j < n; j++)
         system_expand (s, solved + j * s->nred, c->Z + j * s->ndof);
@@ -171,7 +171,7 @@ pg_status contact_condense (pg_system *s, const dynamics *dyn)
     for (size_t j = 0; j < n; j++) most = fmax (most, c->C[j * n + j]);
     for (size_t j = 0; j < n; j++) if (!(c->C[j * n + j] > 0)) c->C[j * n + j] = most;
     c->made = s->direct.revision + 1;
-    s->report->contact_seconds += pg_seconds () - t0;
+    s->report->contact.seconds += pg_seconds () - t0;
 done:
     return status;
 }

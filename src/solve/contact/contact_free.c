@@ -67,8 +67,8 @@ size_t contact_motions (const pg_system *s)
     size_t m = c->loose.n;
     for (size_t i = 0; i < c->platens.n; i++)
         for (int k = 0; k < 6; k++)
-            m += k < 3 ? (size_t) s->problem->platen[i].free[k]
-                       : (size_t) turns (s->problem, &s->problem->platen[i], k - 3);
+            m += k < 3 ? (size_t) s->problem->boundary.platen[i].free[k]
+                       : (size_t) turns (s->problem, &s->problem->boundary.platen[i], k - 3);
     return m;
 }
 
@@ -113,7 +113,7 @@ static pg_status find_motions (problem_of_motions *w)
     size_t j = 0;
     for (size_t i = 0; i < w->c->platens.n; i++)
         for (int k = 0; k < 6; k++) {
-            if (k < 3 ? !p->platen[i].free[k] : !turns (p, &p->platen[i], k - 3)) continue;
+            if (k < 3 ? !p->boundary.platen[i].free[k] : !turns (p, &p->boundary.platen[i], k - 3)) continue;
             w->motion[j] = (motion) { i, k, SIZE_MAX };
             column_of_platen (w, j++);
         }
@@ -159,8 +159,8 @@ static pg_status refuse (const problem_of_motions *w, size_t j, double left)
         return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                          "the platen %s moves %s %c without end: nothing of the body bears %.3g N of what "
                          "presses it; prescribe its displacement, or hold the body",
-                         p->platen[q->platen].name, q->axis < 3 ? "along" : "about", "xyz"[q->axis % 3],
-                         left);
+                         p->boundary.platen[q->platen].name, q->axis < 3 ? "along" : "about",
+                         "xyz"[q->axis % 3], left);
     const contact_loose *l = &w->c->loose;
     const body_part *part = &l->part[q->mode];
     char place[BODY_PART_WORDS], way[BODY_PART_WORDS];

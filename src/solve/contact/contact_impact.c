@@ -62,7 +62,7 @@ pg_status contact_renew (pg_system *s, const pg_state *state)
         double *v = c->now.value + k * l.values;
         contact_vector (&c->pieces, k, c->gap + i + 1, 1, v + l.accepted);
         v[l.overlap] = fmax (0, -c->gap[i]);
-        s->report->contact_overlap = fmax (s->report->contact_overlap, v[l.overlap]);
+        s->report->contact.overlap = fmax (s->report->contact.overlap, v[l.overlap]);
         c->gap[i] += v[l.overlap];
     }
     contact_recall (c);

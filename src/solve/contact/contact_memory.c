@@ -128,7 +128,7 @@ void contact_book (pg_system *s, double scale)
         }
         v[l.old] = 1;
     }
-    if (c) s->report->energy_friction = c->now.friction;
+    if (c) s->report->energy.friction = c->now.friction;
 }
 
 void contact_recall (struct system_contact *c)
@@ -183,7 +183,7 @@ void contact_return (pg_system *s)
 {
     struct system_contact *c = s->contact;
     if (!c || copy (&c->now, &c->start, c->pieces.dim) != PG_OK) return;
-    s->report->energy_friction = c->now.friction;
+    s->report->energy.friction = c->now.friction;
     platens_return (&c->platens);
     /* pieces of platens that the refused step has met stay pairs */
     if (c->now.n != c->pieces.n && contact_remember (c) != PG_OK) return;
@@ -195,7 +195,7 @@ static pg_status keep_memory (contact_memory *m, const char *name, const pg_syst
     pg_status status = PG_OK;
     size_t values = contact_layout_of ((size_t) s->problem->dim).values;
     PG_TRY (pg_keep_fields (k, name, "count", NULL, 1, PG_ROWS (
-        PG_KEPT_IN (m->n, 0, s->problem->first_bond[PG_BOND_SETS], "the number of pieces in contact"))));
+        PG_KEPT_IN (m->n, 0, s->problem->bonds.first[PG_BOND_SETS], "the number of pieces in contact"))));
     if (k->reading) PG_GROW (m->value, m->room, m->n * values);
     PG_TRY (pg_keep_numbers (k, name, "friction", 1, &m->friction));
     PG_TRY (pg_keep_numbers (k, name, "at", 1, &m->at));
@@ -209,16 +209,17 @@ static pg_status keep_shown (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    size_t most = s->problem->first_bond[PG_BOND_SETS];
+    size_t most = s->problem->bonds.first[PG_BOND_SETS];
     PG_KEEP_LENGTH (k, "contact", "shown_count", c->shown, c->nshown, c->cap_shown, most,
                     "the number of pieces in contact");
-    PG_TRY (pg_keep_fields (k, "contact", "shown", "shown_values", c->nshown, PG_ROWS (
-        PG_EACH_IN (c->shown, path, 0, most, "the path of a piece"),
-        PG_EACH_IN (c->shown, status, PG_CONTACT_OPEN, PG_CONTACT_SLIDING, "the status of a piece"),
-        PG_EACH_IN (c->shown, platen, 0, s->problem->nplaten, "the platen of a piece"), PG_EACH (c->shown, x),
-        PG_EACH (c->shown, normal), PG_EACH (c->shown, area), PG_EACH (c->shown, length),
-        PG_EACH (c->shown, arc), PG_EACH (c->shown, pressure), PG_EACH (c->shown, shear),
-        PG_EACH (c->shown, gap), PG_EACH (c->shown, slip))));
+    PG_TRY (pg_keep_fields (
+        k, "contact", "shown", "shown_values", c->nshown,
+        PG_ROWS (PG_EACH_IN (c->shown, path, 0, most, "the path of a piece"),
+                 PG_EACH_IN (c->shown, status, PG_CONTACT_OPEN, PG_CONTACT_SLIDING, "the status of a piece"),
+                 PG_EACH_IN (c->shown, platen, 0, s->problem->boundary.nplaten, "the platen of a piece"),
+                 PG_EACH (c->shown, x), PG_EACH (c->shown, normal), PG_EACH (c->shown, area),
+                 PG_EACH (c->shown, length), PG_EACH (c->shown, arc), PG_EACH (c->shown, pressure),
+                 PG_EACH (c->shown, shear), PG_EACH (c->shown, gap), PG_EACH (c->shown, slip))));
 done:
     return status;
 }
@@ -233,7 +234,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     pg_statistics *r = s->report;
     PG_TRY (platens_keep (s, k));
     if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
-    long piece[4] = { r->contact_pieces, r->contact_open, r->contact_stick, r->contact_sliding };
+    long piece[4] = { r->contact.pieces, r->contact.open, r->contact.stick, r->contact.sliding };
     size_t n = c->pieces.n;
     int made = c->made == s->direct.revision + 1, active = c->active;
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
@@ -241,7 +242,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (keep_shown (s, k));
     PG_TRY (pg_keep_fields (k, "contact", "counts", NULL, 1, PG_ROWS (
         PG_KEPT_IN (n, c->pieces.n, c->pieces.n, "the number of pieces of cracks"),
-        PG_KEPT_IN (active, 0, 1, "contact"), PG_KEPT (r->contact_passes), PG_KEPT (r->contact_sweeps),
+        PG_KEPT_IN (active, 0, 1, "contact"), PG_KEPT (r->contact.passes), PG_KEPT (r->contact.sweeps),
         PG_KEPT (c->touched), PG_KEPT (made), PG_KEPT (piece))));
     contact_set_active (s, active);
     if (k->reading) c->again = made ? s->direct.revision + 1 : 0;
@@ -255,8 +256,8 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     if (k->reading) platens_gaps (s);                  /* the work of platens is counted from there */
     if (k->reading) pg_sparse_multiply (&c->G, c->force, c->nodal);
     if (k->reading) contact_count (s);
-    r->contact_pieces = piece[0], r->contact_open = piece[1];
-    r->contact_stick = piece[2], r->contact_sliding = piece[3];
+    r->contact.pieces = piece[0], r->contact.open = piece[1];
+    r->contact.stick = piece[2], r->contact.sliding = piece[3];
 done:
     return status;
 }

@@ -51,7 +51,7 @@ static void begin_at_first_touch (const pg_problem *p, const pg_contact_pieces *
     size_t nearest = 0;
     for (size_t k = 1; k < one->n; k++) if (gap[k] < gap[nearest]) nearest = k;
     double h = pg_problem_spacing_at (p, one->piece[nearest].x),
-           late = gap[nearest] - fmax (pg_platen_touches (one, &p->platen[platen], h), 0);
+           late = gap[nearest] - fmax (pg_platen_touches (one, &p->boundary.platen[platen], h), 0);
     for (size_t k = 0; k < one->n && late > PG_NO_LENGTH * h; k++) gap[k] -= late;
 }
 
@@ -66,7 +66,7 @@ pg_status platens_create (pg_system *s)
     double *gap = NULL;
     char key[32];
     size_t dim = (size_t) p->dim, room = 0;
-    w->n = p->nplaten;
+    w->n = p->boundary.nplaten;
     PG_ALLOC (w->motion, w->n);
     PG_ALLOC (w->reaction, w->n);
     PG_ALLOC (w->shown, w->n);
@@ -76,14 +76,15 @@ pg_status platens_create (pg_system *s)
         if (!one.n)
             PG_TRY (options_fault (s->options, key,
                                    "nothing of the body's surface faces the platen %s: turn its normal, or "
-                                   "move it", p->platen[i].name));
+                                   "move it", p->boundary.platen[i].name));
         for (size_t k = 0; k < one.n; k++)
             if (gap[k] < -PG_NO_LENGTH * pg_problem_spacing_at (p, one.piece[k].x))
                 PG_TRY (options_fault (s->options, key,
                                        "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m "
                                        "before anything moves: put it where it touches at most (a body of "
-                                       "whole cells has a surface of steps: cells: cut)", p->platen[i].name,
-                                       -gap[k], one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]));
+                                       "whole cells has a surface of steps: cells: cut)",
+                                       p->boundary.platen[i].name, -gap[k], one.piece[k].x[0],
+                                       one.piece[k].x[1], one.piece[k].x[2]));
         begin_at_first_touch (p, &one, i, gap);
         size_t before = w->all.n;
         PG_TRY (append (&w->all, &one, NULL));
@@ -98,7 +99,8 @@ pg_status platens_create (pg_system *s)
     PG_ALLOC (w->taken, w->all.n);
     PG_ALLOC (w->at, w->all.n);
     for (size_t k = 0; k < w->all.n; k++)
-        pg_platen_row (&w->all, k, p->platen[w->all.piece[k].platen - 1].point, w->row + 6 * dim * k);
+        pg_platen_row (&w->all, k, p->boundary.platen[w->all.piece[k].platen - 1].point,
+                       w->row + 6 * dim * k);
     platens_take (s);
 done:
     pg_contact_pieces_clear (&one);
@@ -119,8 +121,8 @@ void platens_free (contact_platens *w)
 static double prescribed (const pg_problem *p, size_t i, int k, double t)
 {
     static const double anywhere[3] = { 0 };
-    int load = p->platen[i].motion;
-    return load < 0 ? 0 : pg_load_value (&p->load[load], k, p->dim, anywhere, t);
+    int load = p->boundary.platen[i].motion;
+    return load < 0 ? 0 : pg_load_value (&p->boundary.load[load], k, p->dim, anywhere, t);
 }
 
 /* Marks the pieces that are pairs from the start. */
@@ -128,7 +130,7 @@ void platens_take (pg_system *s)
 {
     contact_platens *w = &s->contact->platens;
     const pg_problem *p = s->problem;
-    double ends = p->nstage ? (double) p->nstage : 1;
+    double ends = p->boundary.nstage ? (double) p->boundary.nstage : 1;
     for (size_t i = 0; i < w->n; i++) {
         double least = INFINITY, way = 0;
         for (size_t k = 0; k < w->all.n; k++)
@@ -257,8 +259,8 @@ int platens_look (pg_system *s, const double *d)
 double platens_press (const pg_problem *p, size_t i, int k, double t)
 {
     static const double anywhere[3] = { 0 };
-    int load = p->platen[i].force;
-    return load < 0 || k >= 3 ? 0 : pg_load_value (&p->load[load], k, p->dim, anywhere, t);
+    int load = p->boundary.platen[i].force;
+    return load < 0 || k >= 3 ? 0 : pg_load_value (&p->boundary.load[load], k, p->dim, anywhere, t);
 }
 
 /* Forces and moments (about `point`) that the platens exert on the body: - B' f. */
@@ -304,10 +306,10 @@ double platens_book (pg_system *s, double scale)
 void platens_reactions (const pg_system *s, double *reaction)
 {
     const contact_platens *w = s->contact ? &s->contact->platens : NULL;
-    int nload = (int) s->problem->nload;
+    int nload = (int) s->problem->boundary.nload;
     for (size_t i = 0; w && reaction && i < w->n; i++)
         for (int k = 0; k < 6; k++) {
-            const pg_platen *p = &s->problem->platen[i];
+            const pg_platen *p = &s->problem->boundary.platen[i];
             int at = k < 3 ? k : 3 * nload + k - 3;
             if (p->motion >= 0) reaction[3 * p->motion + at] = w->reaction[i][k];
             if (p->force >= 0) reaction[3 * p->force + at] = w->reaction[i][k];
@@ -335,7 +337,7 @@ const pg_platen_values *pg_solver_platens (const pg_solver *s, size_t *n)
 {
     const struct system_contact *c = s->break_loop.system.contact;
     if (s->moving) {
-        *n = s->problem->nplaten;
+        *n = s->problem->boundary.nplaten;
         return s->moving;
     }
     *n = c ? c->platens.n : 0;
@@ -354,7 +356,7 @@ void platens_doubt (pg_system *s)
     if ((w->warned & PLATENS_SLIDE) || !w->n || !c->active) return;
     for (size_t k = c->ncrack; k < c->pieces.n; k++) {
         const pg_contact_piece *piece = &c->pieces.piece[k];
-        const pg_platen *p = &s->problem->platen[piece->platen - 1];
+        const pg_platen *p = &s->problem->boundary.platen[piece->platen - 1];
         double side = 0;
         if (!(c->force[dim * k] > 0) || p->shape == PG_PLATEN_PLANE) continue;
         for (size_t a = 1; a < dim; a++) side += c->gap[dim * k + a] * c->gap[dim * k + a];
@@ -365,8 +367,9 @@ void platens_doubt (pg_system *s)
     pg_statistics_warn (s->report,
                         "the body slides along the curved platen %s by %.3g m: gaps are measured along the "
                         "normals at the start, which puts them out by %.2g m there",
-                        s->problem->platen[c->pieces.piece[at].platen - 1].name,
-                        sqrt (2 * worst * s->problem->platen[c->pieces.piece[at].platen - 1].radius), worst);
+                        s->problem->boundary.platen[c->pieces.piece[at].platen - 1].name,
+                        sqrt (2 * worst * s->problem->boundary.platen[c->pieces.piece[at].platen - 1].radius),
+                        worst);
 }
 
 /* Does some platen bear a force? */

@@ -16,7 +16,7 @@ void contact_note_overlap (pg_system *s, const pg_state *state)
     if (points && pg_contact_overlap (&overlap, &cracks, s->force, s->self, state, state->d) != PG_OK) return;
     if (!points && s->force->judge
         && s->force->judge (s->self, state, state->d, &(pg_judging){ .overlap = &overlap }) != PG_OK) return;
-    s->report->overlap_max = fmax (s->report->overlap_max, overlap);
+    s->report->contact.overlap_max = fmax (s->report->contact.overlap_max, overlap);
 }
 
 pg_status contact_show (pg_system *s, double scale)

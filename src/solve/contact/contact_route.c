@@ -63,9 +63,9 @@ static void count_work (pg_system *s, const pg_contact_track *before, double t0)
 {
     const pg_contact_track *now = &s->contact->route.track;
     pg_statistics *r = s->report;
-    r->contact_passes = now->solves - before->solves, r->contact_sweeps = now->sweeps - before->sweeps;
-    r->contact_solves += r->contact_passes;
-    r->contact_seconds += pg_seconds () - t0;
+    r->contact.passes = now->solves - before->solves, r->contact.sweeps = now->sweeps - before->sweeps;
+    r->contact.solves += r->contact.passes;
+    r->contact.seconds += pg_seconds () - t0;
 }
 
 /* ---- where it stands ----------------------------------------------------------------------------------- */

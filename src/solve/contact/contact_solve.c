@@ -93,7 +93,7 @@ static pg_status make_pairs (pg_system *s)
     PG_ALLOC (c->press, n);
     for (size_t k = 0; k < n; k++) {
         const pg_contact_piece *piece = &c->pieces.piece[k];
-        c->coefficient[k] = piece->platen ? s->problem->platen[piece->platen - 1].friction
+        c->coefficient[k] = piece->platen ? s->problem->boundary.platen[piece->platen - 1].friction
                                           : c->setting.coefficient;
         c->cohesion[k] = piece->platen ? 0 : c->setting.cohesion * piece->area;
     }
@@ -210,7 +210,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
         PG_TRY (options_blame (loose_refresh (&c->loose, s), s->options, "boundary"));
     s->direct.props.n = c->loose.n, s->direct.props.unknown = c->loose.prop;
     s->direct.props.target = c->loose.target;
-    s->report->contact_seconds += pg_seconds () - t0;
+    s->report->contact.seconds += pg_seconds () - t0;
 done:
     return status;
 }
@@ -261,8 +261,8 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
         PG_TRY (pg_contact_solve (&solution, &problem));
     }
     pg_statistics *r = s->report;
-    r->contact_passes = (long) solution.passes, r->contact_sweeps = (long) solution.sweeps;
-    r->contact_solves += r->contact_passes;
+    r->contact.passes = (long) solution.passes, r->contact.sweeps = (long) solution.sweeps;
+    r->contact.solves += r->contact.passes;
     *change = 0;
     for (size_t i = 0; i < n; i++) {
         double step = c->force[i] - old[i];
@@ -282,15 +282,15 @@ void contact_count (pg_system *s)
 {
     const struct system_contact *c = s->contact;
     pg_statistics *r = s->report;
-    r->contact_pieces = (long) c->pieces.n;
-    r->contact_open = r->contact_stick = r->contact_sliding = 0;
+    r->contact.pieces = (long) c->pieces.n;
+    r->contact.open = r->contact.stick = r->contact.sliding = 0;
     for (size_t k = 0; k < c->pieces.n; k++) {
         size_t i = c->pieces.dim * k;
         double open = c->gap[i] - (k < c->ncrack ? c->initial[i] : 0);
-        r->contact_overlap = fmax (r->contact_overlap, -open);
-        if (!c->active || c->status[k] == PG_CONTACT_OPEN) r->contact_open++;
-        else if (c->status[k] == PG_CONTACT_STICK) r->contact_stick++;
-        else r->contact_sliding++;
+        r->contact.overlap = fmax (r->contact.overlap, -open);
+        if (!c->active || c->status[k] == PG_CONTACT_OPEN) r->contact.open++;
+        else if (c->status[k] == PG_CONTACT_STICK) r->contact.stick++;
+        else r->contact.sliding++;
     }
 }
 
@@ -357,8 +357,8 @@ static pg_status check_proportion (const pg_system *s)
         return pg_error (PG_E_USAGE, PG_HERE,
                          "the platen %s comes to touch the body at (%.6g, %.6g, %.6g) m, where it does not "
                          "at the start, so that equilibria do not grow in proportion to the load: use "
-                         "solver.stepping: fixed", s->problem->platen[p->platen - 1].name, p->x[0], p->x[1],
-                         p->x[2]);
+                         "solver.stepping: fixed",
+                         s->problem->boundary.platen[p->platen - 1].name, p->x[0], p->x[1], p->x[2]);
     }
     return PG_OK;
 }
@@ -474,12 +474,13 @@ pg_status contact_settle_tips (pg_system *s, pg_state *state)
     if (!s->contact || !state->paths || !state->paths->ntip) return PG_OK;
     PG_ALLOC (d, s->ndof);
     PG_ALLOC (closed, state->paths->ntip);
-    for (size_t t = 1; t <= (s->problem->nstage ? s->problem->nstage : 1); t++)
+    for (size_t t = 1; t <= (s->problem->boundary.nstage ? s->problem->boundary.nstage : 1); t++)
         PG_TRY (find_closed (s, state, (double) t, d, closed));
     for (size_t i = 0; i < state->paths->ntip; i++) {
         double h = pg_problem_spacing_at (s->problem, state->paths->tip[i].x);
         if (!closed[i]) continue;
-        pg_tip_draw_back (state, s->problem, i, s->problem->closed_tip_offset / s->problem->cloud.h * h);
+        pg_tip_draw_back (state, s->problem, i,
+                          s->problem->crack.closed_tip_offset / s->problem->cloud.h * h);
         any = 1;
     }
     if (any) PG_TRY (system_refresh (s, state, NULL));
@@ -526,7 +527,7 @@ pg_status contact_create (pg_system *s)
     const pg_solver_options *o = s->options;
     const struct system_contact asked = { .setting = o->contact };
     int faces = contact_of_faces (&asked),
-        platens = s->problem->nplaten && (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+        platens = s->problem->boundary.nplaten && (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
     if (!faces && !platens) return PG_OK;
     PG_ALLOC (s->contact, 1);
     s->client = &client;

@@ -66,9 +66,9 @@ void ahead_forget (event_ahead *q)
 static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes *changes)
 {
     pg_system *sys = &s->break_loop.system;
-    long updates = s->report.updates, kept = sys->choice.kept;
+    long updates = s->report.linear.updates, kept = sys->choice.kept;
     pg_status status = system_refresh (sys, state, changes);
-    s->report.updates = updates, sys->choice.kept = kept;         /* a trial is no event of the run */
+    s->report.linear.updates = updates, sys->choice.kept = kept;         /* a trial is no event of the run */
     return status;
 }
 
@@ -408,7 +408,7 @@ void ahead_tell (pg_solver *s)
     snprintf (why, sizeof why,
               "found near the tips, up to %d at a time; all others checked together afterwards%s",
               AHEAD_MOST, q->taken_back ? ", some blocks cut short by that" : "");
-    pg_statistics_skip (&s->report, (double) q->found * rate * (double) s->problem->first_bond[PG_BOND_SETS],
+    pg_statistics_skip (&s->report, (double) q->found * rate * (double) s->problem->bonds.first[PG_BOND_SETS],
                         what, why);
 }
 
@@ -448,7 +448,7 @@ pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
         PG_KEPT (ahead), PG_KEPT_IN (q->nevent, 0, AHEAD_MOST, "the number of events found"),
         PG_KEPT_IN (q->at, 0, AHEAD_MOST, "the next event"),
         PG_KEPT_IN (q->stride, 0, AHEAD_MOST, "the width of a block"),
-        PG_KEPT_IN (q->nbroken, 0, s->problem->first_bond[PG_BOND_SETS], "the bonds found"),
+        PG_KEPT_IN (q->nbroken, 0, s->problem->bonds.first[PG_BOND_SETS], "the bonds found"),
         PG_KEPT (q->wait), PG_KEPT (q->due), PG_KEPT (known), PG_KEPT (q->found), PG_KEPT (q->taken_back),
         PG_KEPT (q->cold), PG_KEPT (q->residual))));
     if (!ahead) {

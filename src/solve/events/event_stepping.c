@@ -135,7 +135,7 @@ pg_status event_account (pg_solver *s, const pg_state *state, double factor, int
     } else if (e->balance_fresh) PG_TRY (break_loop_book (b, factor));
     else PG_TRY (break_loop_account (b, 1, e->unit, NULL, rest, factor));
     e->balance_fresh = 1;
-    s->report.energy_strain = scale * scale * b->work_balance.strain;
+    s->report.energy.strain = scale * scale * b->work_balance.strain;
 done:
     return status;
 }
@@ -200,7 +200,7 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
     }
     double least = PG_OWN (pg_static_options, o)->stop_stiffness;
     double share = e->secant = secant / e->secant0;
-    if (s->problem->nload && stage_moves (s)
+    if (s->problem->boundary.nload && stage_moves (s)
         && (share < least || share > 1 / least_share (s))) {
         pg_statistics_warn (&s->report, "the body has separated: the run ends at event %ld, load factor %.6g",
                             state->events, factor);
@@ -215,7 +215,7 @@ done:
 int event_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
 {
     if (!s->finished || !(cut || events_of (s)->secant > 1 / least_share (s))) return 0;
-    s->break_loop.work = work, s->report.energy_strain = 0;
+    s->break_loop.work = work, s->report.energy.strain = 0;
     step->dissipated = strain;
     return 1;
 }
@@ -275,21 +275,21 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     else PG_TRY (kill_at (s, state, factor, scale));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
-    double strain = s->report.energy_strain, work = b->work;
+    double strain = s->report.energy.strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
     e->balance_fresh = 0;
     if (ahead) PG_TRY (ahead_take (s));
     else now = event_solve (s);
     PG_TRY (instability_after (s, &e->unstable, state, factor, now, &moves));
     if (moves) {
-        step->dissipated = b->work - work - (s->report.energy_strain - strain);
+        step->dissipated = b->work - work - (s->report.energy.strain - strain);
         goto done;
     }
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
     if (e->base) event_displacement (s, factor, state->d);
     PG_TRY (event_account (s, state, factor, 1));
-    step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    step->dissipated = b->work - work - (s->report.energy.strain - strain);
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));
     event_apart (s, 0, work, strain, step);
@@ -344,7 +344,7 @@ done:
 static void take_reactions (pg_solver *s, double factor)
 {
     const double *at_hand = s->break_loop.work_balance.reaction, scale = events_of (s)->base ? 1 : factor;
-    for (size_t k = 0; at_hand && k < PG_REACTIONS * s->problem->nload; k++)
+    for (size_t k = 0; at_hand && k < PG_REACTIONS * s->problem->boundary.nload; k++)
         s->reaction[k] = scale * at_hand[k];
 }
 
@@ -421,7 +421,7 @@ static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *s
     state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
     if (changes) PG_TRY (contact_route_go (sys, factor));
-    if (changes) s->report.contact_changes += contact_route_due (sys);
+    if (changes) s->report.contact.changes += contact_route_due (sys);
     PG_TRY (event_account (s, state, factor, 1));
     if (e->base) contact_accept (sys);
     take_reactions (s, factor);
@@ -520,7 +520,7 @@ void event_refused (pg_solver *s)
         event_equilibrium_lost (s, s->backup);
         e->lost = 1;
     }
-    if (g) g->fresh = 0, g->needed = s->report.energy_fracture = g->needed0;
+    if (g) g->fresh = 0, g->needed = s->report.energy.fracture = g->needed0;
 }
 
 /* Event stepping may end at full load, at max_events or at a damage: the nearest end tells the progress. */
@@ -531,7 +531,7 @@ void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
     const event_stepping *e = events_of (s);
     if (!o->event) return;
     if (e->secant > 0) out->stiffness = e->secant;
-    double stages = s->problem->nstage ? (double) s->problem->nstage : 1;
+    double stages = s->problem->boundary.nstage ? (double) s->problem->boundary.nstage : 1;
     progress_offer (out,
                     fmax (e->top_factor, stage_start (s) + (double) (s->next_level - 1) / (double) o->levels)
                         / stages,

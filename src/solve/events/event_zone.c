@@ -12,7 +12,7 @@ enum { WIDEST_INNER = 2, FAR = 255 };
 
 /* Families beyond the inner part that a break there can touch: the points that see a touched node; with
  * consistent integration also those of the cells beside. */
-static int beyond (const pg_problem *p) { return p->integration->consistent ? 3 : 1; }
+static int beyond (const pg_problem *p) { return p->form.integration->consistent ? 3 : 1; }
 
 void event_zone_clear (event_zone *z)
 {
@@ -28,8 +28,8 @@ pg_status event_zone_room (event_zone *z, const pg_problem *p)
     if (z->left_out) return PG_OK;
     PG_ALLOC (z->level, p->cloud.n);
     PG_ALLOC (z->front, 2 * p->cloud.n);
-    for (int set = 0; set < PG_BOND_SETS; set++) PG_ALLOC (z->inner[set], p->rows[set].n);
-    PG_ALLOC (z->left_out, p->first_bond[PG_BOND_SETS]);
+    for (int set = 0; set < PG_BOND_SETS; set++) PG_ALLOC (z->inner[set], p->bonds.rows[set].n);
+    PG_ALLOC (z->left_out, p->bonds.first[PG_BOND_SETS]);
 done:
     return status;
 }
@@ -41,14 +41,14 @@ static void spread (event_zone *z, const pg_problem *p, const pg_state *state, c
     size_t n = 0;
     memset (z->level, FAR, p->cloud.n);
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t i = p->first_bond[set]; i < p->first_bond[set + 1]; i++) {
+        for (size_t i = p->bonds.first[set]; i < p->bonds.first[set + 1]; i++) {
             if (!(near[i] >= cut) || !state->alive[i]) continue;
-            int j = p->rows[set].family.node[i - p->first_bond[set]];
+            int j = p->bonds.rows[set].family.node[i - p->bonds.first[set]];
             if (z->level[j] == FAR) now[n++] = j;
             z->level[j] = 0;
         }
     for (int level = 1; level <= WIDEST_INNER + beyond (p); level++) {
-        const pg_family *f = &p->rows[PG_NODES].family;
+        const pg_family *f = &p->bonds.rows[PG_NODES].family;
         size_t count = 0;
         for (size_t k = 0; k < n; k++)
             for (size_t e = f->start[now[k]]; e < f->start[now[k] + 1]; e++) {
@@ -74,14 +74,14 @@ static int level_of (const event_zone *z, const pg_family *f, size_t p)
 static size_t mark_bonds (event_zone *z, const pg_problem *p, int inner)
 {
     size_t n = 0;
-    memset (z->left_out, 0, p->first_bond[PG_BOND_SETS]);
+    memset (z->left_out, 0, p->bonds.first[PG_BOND_SETS]);
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &p->rows[set].family;
+        const pg_family *f = &p->bonds.rows[set].family;
         for (size_t q = 0; q < f->n; q++) {
             int level = level_of (z, f, q);
             z->inner[set][q] = (set == PG_NODES ? z->level[q] : level) <= inner;
             if (level > inner + beyond (p)) continue;
-            memset (z->left_out + p->first_bond[set] + f->start[q], 1, f->start[q + 1] - f->start[q]);
+            memset (z->left_out + p->bonds.first[set] + f->start[q], 1, f->start[q + 1] - f->start[q]);
             n += f->start[q + 1] - f->start[q];
         }
     }
@@ -95,7 +95,7 @@ pg_status event_zone_fill (event_zone *z, const pg_system *sys, double most, dou
 {
     pg_status status = PG_OK;
     const pg_problem *p = sys->problem;
-    size_t nbond = p->first_bond[PG_BOND_SETS], n = 0;
+    size_t nbond = p->bonds.first[PG_BOND_SETS], n = 0;
     int can;
     z->known = 0, *share = 1;
     for (int inner = WIDEST_INNER; inner >= 0 && *share > most; inner--) {

@@ -25,7 +25,7 @@ static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *
         *ended = 1;
         if (!b->growth->closed) {
             b->growth->needed -= b->growth->event_energy;   /* nothing tells what they took */
-            s->report.energy_fracture = b->growth->needed;
+            s->report.energy.fracture = b->growth->needed;
             goto done;
         }
         e->ended = PG_OK, s->finished = 1;
@@ -116,7 +116,7 @@ static pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_s
     facet_growth *g = b->growth;
     event_stepping *e = events_of (s);
     size_t bytes = state->ndof * sizeof *state->d;
-    double strain = s->report.energy_strain, work = b->work, end, now;
+    double strain = s->report.energy.strain, work = b->work, end, now;
     int ended = 0, more = 1, moves = 0;
     if (!g->before) PG_ALLOC (g->before, state->ndof);
     memcpy (g->before, state->d, bytes);
@@ -134,12 +134,12 @@ static pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_s
         PG_TRY (facet_run_out (b, state, factor, &more));
     }
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
-    if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    if (moves) step->dissipated = b->work - work - (s->report.energy.strain - strain);
     if (ended) end_apart (s, 1, work, strain, step);
     if (ended || moves) goto done;
     PG_TRY (way_end (s, state, factor, &end));
     PG_TRY (account (s, state, factor, end));
-    step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    step->dissipated = b->work - work - (s->report.energy.strain - strain);
     if (!g->going || e->arrested) take_no_more (s, step);
     PG_TRY (event_secant (s, &now));
     memcpy (state->d, g->before, bytes);

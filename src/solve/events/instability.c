@@ -66,7 +66,7 @@ pg_status instability_start (pg_solver *s, instability *u)
     PG_TRY (newmark_open (&u->scheme));
     if (!u->before) PG_ALLOC (u->before, s->break_loop.system.ndof);
     if (!u->rest) PG_ALLOC (u->rest, s->break_loop.system.ndof);
-    if (!u->reaction) PG_ALLOC (u->reaction, 3 * s->problem->nload);
+    if (!u->reaction) PG_ALLOC (u->reaction, 3 * s->problem->boundary.nload);
 done:
     return status;
 }
@@ -115,8 +115,8 @@ const dynamics *instability_dynamics (instability *u)
 int instability_holds (pg_solver *s, instability *u, int over)
 {
     if (s->options.on_instability == PG_UNSTABLE_FOLLOW) return 0;
-    if (over && !u->held) s->report.instabilities = ++u->count;
-    s->report.unstable_steps += over;
+    if (over && !u->held) s->report.unstable.count = ++u->count;
+    s->report.unstable.steps += over;
     return u->held = over;
 }
 
@@ -131,13 +131,13 @@ void instability_before (const pg_solver *s, instability *u, const pg_state *sta
 static void compare_reactions (pg_solver *s, const double *before, const double *after)
 {
     double size = 0, change = 0;
-    for (size_t k = 0; before && after && k < 3 * s->problem->nload; k++) {
+    for (size_t k = 0; before && after && k < 3 * s->problem->boundary.nload; k++) {
         double from = system_sum (&s->break_loop.system, before[k]),
                to = system_sum (&s->break_loop.system, after[k]);
         size = fmax (size, fmax (fabs (from), fabs (to)));
         change = fmax (change, fabs (to - from));
     }
-    if (size > 0) s->report.switch_jump = fmax (s->report.switch_jump, change / size);
+    if (size > 0) s->report.unstable.jump = fmax (s->report.unstable.jump, change / size);
 }
 
 /* From the displacements before the event, at rest, without the bonds that it broke. */
@@ -152,7 +152,7 @@ static pg_status begin (pg_solver *s, instability *u, pg_state *state, double fa
     u->time = u->last_break = 0, u->settling = 0;
     if (!u->held) u->count++;
     u->held = 0;
-    s->report.instabilities = u->count;
+    s->report.unstable.count = u->count;
     if (b->growth) PG_TRY (facet_set_off (b, state, factor, state->d));
     PG_TRY (newmark_launch (&u->scheme, state, factor));
     PG_TRY (newmark_account (&u->scheme, b, state, factor));
@@ -219,15 +219,15 @@ static void balance_energy (pg_solver *s, instability *u, const pg_state *state,
 {
     break_loop *b = &s->break_loop;
     pg_statistics *r = &s->report;
-    r->energy_kinetic = newmark_kinetic (&u->scheme, state->v);
-    r->energy_strain = b->work_balance.strain;
-    double lost = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0);
+    r->energy.kinetic = newmark_kinetic (&u->scheme, state->v);
+    r->energy.strain = b->work_balance.strain;
+    double lost = b->work - b->work0 - (r->energy.strain + r->energy.kinetic - b->stored0);
     int opening = b->growth && b->growth->start.nhold > 0;
     double taken = broke || opening ? damped (&u->scheme, s->backup, state) : lost;
     /* Steps of settling stop the body within one: dt v C v is far above what there is to lose, and facets
      * never give energy to the body. */
     if (b->growth && u->phase == PHASE_SETTLING) taken = fmin (taken, lost);
-    r->energy_damping += taken;
+    r->energy.damping += taken;
     step->dissipated = lost - taken;
     if (!b->growth) return;
     u->dissipated += step->dissipated, u->needed += b->growth->needed - b->growth->needed0;
@@ -298,16 +298,16 @@ static pg_status come_to_rest (pg_solver *s, instability *u, pg_state *state)
 {
     pg_status status = PG_OK;
     pg_statistics *r = &s->report;
-    double before = r->energy_strain + r->energy_kinetic, work = s->break_loop.work;
-    memcpy (u->reaction, s->reaction, 3 * s->problem->nload * sizeof *u->reaction);
+    double before = r->energy.strain + r->energy.kinetic, work = s->break_loop.work;
+    memcpy (u->reaction, s->reaction, 3 * s->problem->boundary.nload * sizeof *u->reaction);
     memset (state->v, 0, state->ndof * sizeof *state->v);
     memset (state->a, 0, state->ndof * sizeof *state->a);
     compare_energies (s, u);
     enter (s, u, PHASE_REST);
     if (s->break_loop.growth) facet_rest (&s->break_loop);
     PG_TRY (event_rest (s, state, state->factor));
-    r->energy_kinetic = 0;
-    r->energy_damping += s->break_loop.work - work + before - r->energy_strain;
+    r->energy.kinetic = 0;
+    r->energy.damping += s->break_loop.work - work + before - r->energy.strain;
     compare_reactions (s, u->reaction, s->reaction);
 done:
     return status;
@@ -327,7 +327,7 @@ static pg_status next_phase (pg_solver *s, instability *u, pg_state *state, int 
         if (u->scheme.force0) PG_TRY (newmark_remember (&u->scheme, state->factor, state));
         goto done;
     }
-    double stored = system_sum (&s->break_loop.system, s->report.energy_strain),
+    double stored = system_sum (&s->break_loop.system, s->report.energy.strain),
            above = system_sum (&s->break_loop.system, excess (s, u, state));
     if (u->settling + 1 >= MOST_SETTLING || above <= calm * stored) {
         PG_TRY (come_to_rest (s, u, state));
@@ -352,9 +352,9 @@ pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_st
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction,
-                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
-    if (u->phase == PHASE_RUNNING) u->time += u->scheme.dt, s->report.motion_time += u->scheme.dt;
-    s->report.unstable_steps++;
+                PG_REACTIONS * s->problem->boundary.nload * sizeof *s->reaction);
+    if (u->phase == PHASE_RUNNING) u->time += u->scheme.dt, s->report.unstable.time += u->scheme.dt;
+    s->report.unstable.steps++;
     step->factor = step->time = factor;
     step->instability = u->count, step->motion = u->time;
     if (broke) {
@@ -381,12 +381,14 @@ static pg_status keep_numbers (pg_solver *s, instability *u, const pg_keeper *k)
 {
     pg_statistics *r = &s->report;
     int last = s->options.on_instability == PG_UNSTABLE_DYNAMIC ? PHASE_SETTLING : PHASE_REST;
-    return pg_keep_fields (k, "instability", "counts", "numbers", 1, PG_ROWS (
-        PG_KEPT_IN (u->phase, PHASE_REST, last, "the phase of a motion"), PG_KEPT (u->held),
-        PG_KEPT (u->count), PG_KEPT_IN (u->settling, 0, MOST_SETTLING, "a step of settling"),
-        PG_KEPT_IN (u->mode, SYSTEM_UNDECIDED, SYSTEM_DIAGONAL, "the way to solve"),
-        PG_KEPT (r->instabilities), PG_KEPT (r->unstable_steps), PG_KEPT (u->time), PG_KEPT (u->last_break),
-        PG_KEPT (r->motion_time), PG_KEPT (r->switch_jump), PG_KEPT (u->needed), PG_KEPT (u->dissipated)));
+    return pg_keep_fields (
+        k, "instability", "counts", "numbers", 1,
+        PG_ROWS (PG_KEPT_IN (u->phase, PHASE_REST, last, "the phase of a motion"), PG_KEPT (u->held),
+                 PG_KEPT (u->count), PG_KEPT_IN (u->settling, 0, MOST_SETTLING, "a step of settling"),
+                 PG_KEPT_IN (u->mode, SYSTEM_UNDECIDED, SYSTEM_DIAGONAL, "the way to solve"),
+                 PG_KEPT (r->unstable.count), PG_KEPT (r->unstable.steps), PG_KEPT (u->time),
+                 PG_KEPT (u->last_break), PG_KEPT (r->unstable.time), PG_KEPT (r->unstable.jump),
+                 PG_KEPT (u->needed), PG_KEPT (u->dissipated)));
 }
 
 pg_status instability_keep (pg_solver *s, instability *u, const pg_keeper *k)

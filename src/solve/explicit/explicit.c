@@ -42,15 +42,17 @@ done:
 /* Is there a load that is a force, not a motion? */
 static int has_forces (const pg_problem *p)
 {
-    for (size_t l = 0; l < p->nload; l++) if (!pg_load_prescribes (&p->load[l])) return 1;
+    for (size_t l = 0; l < p->boundary.nload; l++) if (!pg_load_prescribes (&p->boundary.load[l])) return 1;
     return 0;
 }
 
 /* Supports that act like springs (penalty, Nitsche): their work is known to the force alone. */
 static int has_springs (const pg_problem *p)
 {
-    for (size_t l = 0; l < p->nload; l++)
-        if (pg_load_prescribes (&p->load[l]) && p->load[l].essential != PG_ESSENTIAL_TRANSFORMATION) return 1;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (pg_load_prescribes (&p->boundary.load[l])
+            && p->boundary.load[l].essential != PG_ESSENTIAL_TRANSFORMATION)
+            return 1;
     return 0;
 }
 
@@ -77,7 +79,7 @@ pg_status explicit_create (pg_solver *s)
     m->nblock = (sys->ndof + BLOCK - 1) / BLOCK;
     PG_ALLOC (m->sum, m->nblock * SUMS);
     PG_ALLOC (m->inverse, sys->ndof);
-    double bonds = (double) s->problem->first_bond[PG_BOND_SETS];
+    double bonds = (double) s->problem->bonds.first[PG_BOND_SETS];
     PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &bonds));
     m->between = (long) fmin (1000, fmax (1, 4e7 / fmax (bonds, 1)));
 done:

@@ -14,11 +14,11 @@ pg_status explicit_contact_create (pg_solver *s)
     const pg_system *sys = &s->break_loop.system;
     const pg_contact_setting *setting = &s->options.contact;
     int pairs = setting->kind != PG_CONTACT_NONE && setting->search == PG_CONTACT_SHORT_RANGE;
-    if (!pairs && !s->problem->nplaten) return PG_OK;
+    if (!pairs && !s->problem->boundary.nplaten) return PG_OK;
     PG_ALLOC (m->contact, 1);
     if (pairs)
         PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
-    if (pairs && sys->force->surfaces.at_nodes && !s->problem->approx.type->interpolates) {
+    if (pairs && sys->force->surfaces.at_nodes && !s->problem->form.approx.type->interpolates) {
         PG_ALLOC (m->contact->moved, sys->ndof);
         PG_ALLOC (m->contact->speed, sys->ndof);
         PG_ALLOC (m->contact->pressed, sys->ndof);
@@ -29,8 +29,8 @@ pg_status explicit_contact_create (pg_solver *s)
         PG_ALLOC (m->contact->ahead, sys->ndof);
         PG_ALLOC (m->contact->inverse, sys->ndof);
     }
-    if (!s->problem->nplaten) goto done;
-    PG_ALLOC (m->contact->shown, s->problem->nplaten);
+    if (!s->problem->boundary.nplaten) goto done;
+    PG_ALLOC (m->contact->shown, s->problem->boundary.nplaten);
     s->moving = m->contact->shown;
     PG_TRY (pg_moving_platens_create (&m->contact->platens, s->problem, setting, (size_t) sys->components));
 done:
@@ -199,8 +199,9 @@ void explicit_contact_forces (const pg_solver *s, double *out)
 static void show_platens (const struct explicit_contact *c, pg_statistics *r, size_t n)
 {
     const pg_moving_report *now = pg_moving_platens_now (c->platens);
-    r->energy_contact += now->energy, r->energy_friction += now->friction, r->energy_kinetic += now->kinetic;
-    r->overlap_max = fmax (r->overlap_max, now->overlap_max), r->contact_touching += (long) now->touching;
+    r->energy.contact += now->energy, r->energy.friction += now->friction, r->energy.kinetic += now->kinetic;
+    r->contact.overlap_max = fmax (r->contact.overlap_max, now->overlap_max),
+    r->contact.touching += (long) now->touching;
     for (size_t i = 0; i < n; i++)
         for (int k = 0; k < 3; k++)
             c->shown[i].force[k] = now->platen[i].force[k],
@@ -214,13 +215,13 @@ void explicit_contact_show (pg_solver *s)
     pg_statistics *r = &s->report;
     char what[96];
     if (!c) return;
-    r->energy_contact = r->energy_friction = r->overlap_max = 0, r->contact_touching = 0;
-    if (c->platens) show_platens (c, r, s->problem->nplaten);
+    r->energy.contact = r->energy.friction = r->contact.overlap_max = 0, r->contact.touching = 0;
+    if (c->platens) show_platens (c, r, s->problem->boundary.nplaten);
     if (!c->pairs) return;
     const pg_short_range_report *now = pg_short_range_now (c->pairs);
-    r->energy_contact += now->energy, r->energy_friction += now->friction;
-    r->overlap_max = fmax (r->overlap_max, now->overlap_max);
-    r->contact_pairs = (long) now->listed, r->contact_touching += (long) now->touching;
+    r->energy.contact += now->energy, r->energy.friction += now->friction;
+    r->contact.overlap_max = fmax (r->contact.overlap_max, now->overlap_max);
+    r->contact.pairs = (long) now->listed, r->contact.touching += (long) now->touching;
     if (now->evaluations > now->searches) {
         snprintf (what, sizeof what, "search for contact in %ld steps", now->evaluations - now->searches);
         pg_statistics_skip (r, NAN, what, "no point had moved half the skin of the last search");
@@ -236,7 +237,7 @@ pg_status explicit_contact_save (pg_solver *s)
 {
     struct explicit_contact *c = motion_of (s)->contact;
     if (!c) return PG_OK;
-    c->energy0 = s->report.energy_contact, c->friction0 = s->report.energy_friction;
+    c->energy0 = s->report.energy.contact, c->friction0 = s->report.energy.friction;
     if (c->platens) pg_moving_platens_save (c->platens);
     return c->pairs ? pg_short_range_save (c->pairs) : PG_OK;
 }
@@ -247,7 +248,7 @@ void explicit_contact_return (pg_solver *s)
     if (!c) return;
     if (c->platens) pg_moving_platens_return (c->platens);
     if (c->pairs) pg_short_range_return (c->pairs);    /* room is there: they stood in it before */
-    s->report.energy_contact = c->energy0, s->report.energy_friction = c->friction0;
+    s->report.energy.contact = c->energy0, s->report.energy.friction = c->friction0;
     c->broken = -1;
 }
 
@@ -255,7 +256,7 @@ void explicit_contact_return (pg_solver *s)
 double explicit_contact_took (const pg_solver *s)
 {
     const struct explicit_contact *c = motion_of (s)->contact;
-    return c ? s->report.energy_contact - c->energy0 + s->report.energy_friction - c->friction0 : 0;
+    return c ? s->report.energy.contact - c->energy0 + s->report.energy.friction - c->friction0 : 0;
 }
 
 pg_status explicit_contact_keep (pg_solver *s, const pg_keeper *k)

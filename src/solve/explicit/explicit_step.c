@@ -168,9 +168,9 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
         if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_A], m->before, m->goal);
         m->resist = total[SUM_D];
         m->damped += 0.5 * dt * c * total[SUM_C];
-        s->report.energy_kinetic = 0.5 * total[SUM_K];
+        s->report.energy.kinetic = 0.5 * total[SUM_K];
         for (size_t k = 0; k < m->nprescribed; k++)
-            s->report.energy_kinetic += 0.5 * sys->mass[m->prescribed[k]] * (m->goal[k] - m->before[k])
+            s->report.energy.kinetic += 0.5 * sys->mass[m->prescribed[k]] * (m->goal[k] - m->before[k])
                                         * (m->next[k] - m->goal[k]) / (dt * dt);
     }
     if (opening) {
@@ -324,7 +324,7 @@ static pg_status account (pg_solver *s, pg_state *state, double t, int staggered
     if (!b->system.force->work) return PG_OK;
     PG_TRY (measure_work (s, state, t, staggered));
     if (book) PG_TRY (break_loop_book (b, 1));
-    s->report.energy_strain = b->work_balance.strain;
+    s->report.energy.strain = b->work_balance.strain;
 done:
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
@@ -361,9 +361,9 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
                    / (dt * dt);
     show_prescribed (s, state, staggered);
     kinetic += explicit_contact_kinetic (s);
-    s->report.energy_kinetic = kinetic;
+    s->report.energy.kinetic = kinetic;
     PG_TRY (account (s, state, 0, staggered, 1));
-    s->break_loop.work = s->report.energy_strain + kinetic;
+    s->break_loop.work = s->report.energy.strain + kinetic;
 done:
     return status;
 }
@@ -388,12 +388,12 @@ static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
     motion *m = motion_of (s);
     /* An unstable step gives leapfrog's kinetic energy the other sign, so that the sum stays what it was. So
      * does a stable step just below the limit, which the body had before anything broke. */
-    double sum[4] = { s->report.energy_kinetic, s->report.energy_strain, s->break_loop.work,
+    double sum[4] = { s->report.energy.kinetic, s->report.energy.strain, s->break_loop.work,
                       (double) state->broken };
     PG_TRY (pg_cloud_sum (&s->problem->cloud, 4, sum));
     double stored = sum[1] + (sum[3] > 0 ? fmax (0, sum[0]) : sum[0]);
     m->most = fmax (m->most, fabs (sum[2]));
-    if ((s->problem->nload == 0 || s->break_loop.system.force->work) && stored > 10 * m->most)
+    if ((s->problem->boundary.nload == 0 || s->break_loop.system.force->work) && stored > 10 * m->most)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: "
                  "breaking has made "
@@ -445,14 +445,14 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     PG_TRY (share_row (s, state, n));
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     measure_balance (s, state, staggered);
-    s->report.energy_damping = m->damped;
+    s->report.energy.damping = m->damped;
     explicit_contact_show (s);
     PG_TRY (check_growth (s, state, t));
-    step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0)
+    step->dissipated = b->work - b->work0 - (r->energy.strain + r->energy.kinetic - b->stored0)
                        - (m->damped - m->damped0) - explicit_contact_took (s);
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction,
-                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
+                PG_REACTIONS * s->problem->boundary.nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);

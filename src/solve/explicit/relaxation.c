@@ -480,13 +480,13 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
     PG_TRY (stages_of (s)->hold ? step_of_held_stage (s, state, step) : step_on (s, state, step));
     if (b->system.contact) contact_accept (&b->system), contact_count (&b->system);
     PG_TRY (contact_show (&b->system, 1));
-    s->report.energy_strain = b->work_balance.strain;
+    s->report.energy.strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     state->time = step->time = step->factor = state->factor;
     step->nbroken = b->nbroken, step->broken = b->broken;
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction,
-                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
+                PG_REACTIONS * s->problem->boundary.nload * sizeof *s->reaction);
 done:
     return status;
 }

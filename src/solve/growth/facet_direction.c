@@ -20,7 +20,7 @@ int facet_limits (const break_loop *b, const double *x, double angle, pg_fractur
 {
     const pg_problem *p = b->system.problem;
     long node = pg_nearest_find (b->growth->near, x, NULL, NULL);
-    if (node < 0 || (p->exempt[PG_NODES] && p->exempt[PG_NODES][node])) return 0;
+    if (node < 0 || (p->bonds.exempt[PG_NODES] && p->bonds.exempt[PG_NODES][node])) return 0;
     const pg_criterion *c = &p->criterion[p->block[PG_NODES] ? p->block[PG_NODES][node] : 0];
     if (c->never || !c->type) return 0;
     c->type->fracture (c, x, angle, out);

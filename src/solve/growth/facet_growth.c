@@ -89,7 +89,7 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     PG_TRY (pg_keep_fields (k, "facets", "said", "needed", 1, PG_ROWS (
         PG_KEPT_IN (g->said, 0, FACET_SAID_ALL, "what was said of facets"), PG_KEPT (g->unjudged),
         PG_KEPT (g->needed))));
-    if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
+    if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy.fracture = g->needed;
     PG_TRY (facet_motion_keep (b, k));
 done:
     return status;
@@ -456,7 +456,7 @@ static pg_status log_all (break_loop *b, pg_state *state, double utilisation, do
     for (size_t i = 0; i < b->changes.n; i++)
         PG_TRY (break_loop_log (b, b->changes.bond[i], 'f', utilisation, t));
     state->broken += (long) b->changes.n;
-    b->system.report->energy_fracture = b->growth->needed;
+    b->system.report->energy.fracture = b->growth->needed;
     b->growth->fresh = 0;
 done:
     return status;

@@ -65,7 +65,7 @@ void facet_hold_sum (break_loop *b)
         closed += (1 - taken_at (h, h->way)) * h->energy;
     }
     b->system.balance.held = g->nhold ? g->held : NULL;
-    b->system.report->energy_fracture = g->needed - closed;
+    b->system.report->energy.fracture = g->needed - closed;
 }
 
 /* Loads less internal force at (t, d) with the bonds that live now, N (ndof). */
@@ -206,7 +206,7 @@ pg_status facet_hold_keep (break_loop *b, const pg_keeper *k)
     long count = (long) g->nhold;
     PG_TRY (k->counts (k->context, "facets.holding", 1, &count));
     PG_KEEP_BOUND (k, "the facets that open", count, 0,
-                   (long) b->system.problem->first_bond[PG_BOND_SETS]);
+                   (long) b->system.problem->bonds.first[PG_BOND_SETS]);
     if (k->reading) {
         facet_hold_free (g);
         PG_ALLOC (g->held, b->system.ndof);

@@ -57,7 +57,7 @@ pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_ke
     PG_TRY (pg_keep_fields (k, "facets", "measured", NULL, 1, PG_ROWS (
         PG_KEPT_IN (fresh, 0, 1, "whether tips were measured"),
         PG_KEPT_IN (nfield, 1, 2, "the fields around tips"),
-        PG_KEPT_IN (ntrial, 0, b->system.problem->first_bond[PG_BOND_SETS], "the number of trial facets"),
+        PG_KEPT_IN (ntrial, 0, b->system.problem->bonds.first[PG_BOND_SETS], "the number of trial facets"),
         PG_KEPT_IN (ended, 0, 1, "whether the measure ended"))));
     if (k->reading && ended) facet_note_end (b->system.report);
     if (!fresh) goto done;

@@ -299,7 +299,7 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     PG_KEEP_LENGTH (k, "facets", "running", g->run, g->nrun, g->cap_run,
-                    b->system.problem->first_bond[PG_BOND_SETS], "the tips that run");
+                    b->system.problem->bonds.first[PG_BOND_SETS], "the tips that run");
     facet_run *r = g->run;
     PG_TRY (pg_keep_fields (k, "facets", NULL, "speed", g->nrun, PG_ROWS (
         PG_EACH (r, speed), PG_EACH (r, g), PG_EACH (r, mean), PG_EACH (r, steady), PG_EACH (r, way),

@@ -70,13 +70,13 @@ static double strength_factor (const trial_fields *fields, const double *first, 
 static void mean_stress (const search *g, size_t i, const double *stress, double out[6])
 {
     const pg_problem *p = problem_of (g);
-    const pg_rows *r = &p->rows[PG_NODES];
+    const pg_rows *r = &p->bonds.rows[PG_NODES];
     double reach = 1.1 * pg_problem_spacing (p, PG_NODES, i), n = 1;
     memcpy (out, stress + 6*i, 6 * sizeof *out);
     for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
         if (j == i || pg_distance3 (p->cloud.x + 3*i, p->cloud.x + 3*j) > reach) continue;
-        if (!g->state->alive[p->first_bond[PG_NODES] + e]) continue;
+        if (!g->state->alive[p->bonds.first[PG_NODES] + e]) continue;
         if (!pg_problem_has_body (p, p->cloud.x + 3*j)) continue;
         for (int k = 0; k < 6; k++) out[k] += stress[6*j + (size_t) k];
         n++;

@@ -173,7 +173,7 @@ static pg_status node_factors (const search *g, double *factor)
         int slides;
         factor[i] = INFINITY;
         affine_stress at = affine_of (g->f, first, second);
-        if (p->exempt[PG_NODES][i]
+        if (p->bonds.exempt[PG_NODES][i]
             || !hot_resists (g, x, 0, h, pg_problem_law (p, PG_NODES, i)->modulus, &limits))
             continue;
         factor[i] = reached (&at, &limits, &slides);

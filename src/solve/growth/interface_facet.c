@@ -9,7 +9,7 @@
 
 enum { HALVINGS = 40 };
 
-static int bulk_of (const pg_problem *p) { return p->rows[PG_POINTS].n ? PG_POINTS : PG_NODES; }
+static int bulk_of (const pg_problem *p) { return p->bonds.rows[PG_POINTS].n ? PG_POINTS : PG_NODES; }
 
 pg_status interface_ready (trials *w, int *several)
 {
@@ -17,7 +17,7 @@ pg_status interface_ready (trials *w, int *several)
     const pg_problem *p = w->system->problem;
     *several = p->nmaterial > 1;
     if (!*several || w->points) return PG_OK;
-    const pg_rows *r = &p->rows[bulk_of (p)];
+    const pg_rows *r = &p->bonds.rows[bulk_of (p)];
     PG_TRY (pg_nearest_create (&w->points, p->dim, r->n, r->x));
 done:
     return status;
@@ -97,7 +97,7 @@ int interface_ahead (trials *w, const double *x, const double *direction, double
 /* Does node i see a node of another material? */
 static int is_beside (const pg_problem *p, size_t i)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
         if (p->block[PG_NODES][f->node[e]] != p->block[PG_NODES][i]) return 1;
     return 0;
@@ -164,9 +164,9 @@ pg_status hot_interfaces (const search *g, size_t most, hot_spot *out, size_t *n
     int several;
     *n = 0;
     PG_TRY (interface_ready (g->w, &several));
-    if (!several || p->ninterface == 0) goto done;
+    if (!several || p->at.ninterface == 0) goto done;
     for (size_t i = 0; i < p->cloud.n; i++) {
-        if (p->exempt[PG_NODES][i] || !is_beside (p, i) || !lies_near (g->w, i, &one)) continue;
+        if (p->bonds.exempt[PG_NODES][i] || !is_beside (p, i) || !lies_near (g->w, i, &one)) continue;
         if (hot_excluded (g, one.x, one.h)) continue;
         PG_GROW (all, cap, count + 1);
         all[count++] = one;

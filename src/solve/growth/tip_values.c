@@ -49,7 +49,7 @@ pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     PG_KEEP_LENGTH (k, "solver", "tip_count", s->tip, s->ntip, s->cap_tip,
-                    s->problem->first_bond[PG_BOND_SETS], "the number of tips");
+                    s->problem->bonds.first[PG_BOND_SETS], "the number of tips");
     pg_tip_values *t = s->tip;
     PG_TRY (pg_keep_fields (k, "solver", "tips", "tip_values", s->ntip, PG_ROWS (
         PG_EACH (t, id), PG_EACH_IN (t, vertex, 0, s->ntip, "the vertex of a front"), PG_EACH (t, x),

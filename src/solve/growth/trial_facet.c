@@ -303,7 +303,7 @@ int trial_has_strength (const pg_problem *p)
         c->type->fracture (c, x, 0, &limits);
         if (limits.strength > 0 || limits.cohesion > 0) return 1;
     }
-    for (size_t k = 0; k < p->ninterface; k++) if (p->interface[k].strength > 0) return 1;
+    for (size_t k = 0; k < p->at.ninterface; k++) if (p->at.interface[k].strength > 0) return 1;
     return 0;
 }
 
@@ -338,8 +338,8 @@ static void doubt_interfaces (const break_loop *b)
 {
     const pg_problem *p = b->system.problem;
     double h = b->growth->length > 0 ? b->growth->length : p->cloud.h;
-    for (size_t k = 0; k < p->ninterface; k++) {
-        const pg_interface *one = &p->interface[k];
+    for (size_t k = 0; k < p->at.ninterface; k++) {
+        const pg_interface *one = &p->at.interface[k];
         const pg_material *m[2] = { &p->material[one->material[0]], &p->material[one->material[1]] };
         double cap = hot_strength_cap (fmin (m[0]->modulus, m[1]->modulus), one->energy, h);
         if (one->strength > cap)

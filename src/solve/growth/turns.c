@@ -15,8 +15,8 @@ static const char BEGINS[] = "families of points turn: ";
  * they do not tell it. */
 static int gradient (const pg_problem *p, const pg_state *state, size_t stride, size_t i, double *H)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
-    const unsigned char *alive = state->alive + p->first_bond[PG_NODES];
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
+    const unsigned char *alive = state->alive + p->bonds.first[PG_NODES];
     size_t dim = (size_t) p->dim;
     double M[9] = { 0 }, B[9] = { 0 };
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {

@@ -206,7 +206,7 @@ static pg_status newmark_start (pg_solver *s, pg_state *state)
     PG_TRY (newmark_launch (n, state, state->time));
     PG_TRY (newmark_account (n, &s->break_loop, state, state->time));
     if (n->system->force->work)
-        s->break_loop.work = s->report.energy_strain + s->report.energy_kinetic;
+        s->break_loop.work = s->report.energy.strain + s->report.energy.kinetic;
     if (n->force0) PG_TRY (newmark_remember (n, state->time, state));
 done:
     return status;
@@ -223,12 +223,12 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     int last = state->step + 1 >= s->options.steps;
     double t = last ? s->options.end : (double) (state->step + 1) * s->options.dt;
     PG_TRY (newmark_advance (n, b, s->backup, state, t, step));
-    s->report.energy_kinetic = newmark_kinetic (n, state->v);
-    s->report.energy_strain = b->work_balance.strain;
-    step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
+    s->report.energy.kinetic = newmark_kinetic (n, state->v);
+    s->report.energy.strain = b->work_balance.strain;
+    step->dissipated = b->work - b->work0 - (s->report.energy.strain + s->report.energy.kinetic - b->stored0);
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction,
-                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
+                PG_REACTIONS * s->problem->boundary.nload * sizeof *s->reaction);
     step->unjudged = facet_unjudged (b, state, 1);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     PG_TRY (contact_show (&b->system, 1));

@@ -65,7 +65,7 @@ pg_status newmark_supports (newmark *n, double t, int start)
     pg_status status = PG_OK;
     pg_system *sys = n->system;
     double *z[3], e = n->held ? 0 : n->dt / 16;
-    n->support_updates = sys->report->updates;
+    n->support_updates = sys->report->linear.updates;
     if (!elimination (sys)) return PG_OK;
     for (size_t k = 0; k < 3; k++) {
         z[k] = n->support + k * sys->ndof;
@@ -88,7 +88,7 @@ void newmark_follow (newmark *n, double t, double *v, double *a)
 {
     const pg_system *sys = n->system;
     if (!elimination (sys)) return;
-    if (n->support_updates != sys->report->updates) newmark_supports (n, t, 0);
+    if (n->support_updates != sys->report->linear.updates) newmark_supports (n, t, 0);
     for (size_t k = 1; k < 3; k++) {
         double *w = k == 1 ? v : a;
         sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z */
@@ -193,14 +193,14 @@ pg_status newmark_account (newmark *n, break_loop *b, const pg_state *state, dou
 {
     pg_status status = PG_OK;
     pg_system *sys = n->system;
-    sys->report->energy_kinetic = newmark_kinetic (n, state->v);
+    sys->report->energy.kinetic = newmark_kinetic (n, state->v);
     if (!sys->force->work) goto done;
     memset (sys->balance.full, 0, sys->ndof * sizeof *sys->balance.full);
     resist_motion (n, state->v, state->a, sys->balance.full);
     PG_TRY (sys->force->work (sys->self, t, state->d, &(pg_known){ .inertia = sys->balance.full },
                               &b->work_balance));
     PG_TRY (break_loop_book (b, 1));
-    sys->report->energy_strain = b->work_balance.strain;
+    sys->report->energy.strain = b->work_balance.strain;
 done:
     return status;
 }

@@ -233,11 +233,11 @@ static void resist_facet (const body_parts *out, const pg_system *s, const pg_lo
 {
     enum { PARTS = 16 };
     const pg_problem *p = s->problem;
-    const pg_rows *r = &p->rows[PG_FACETS];
+    const pg_rows *r = &p->bonds.rows[PG_FACETS];
     int seen[PARTS], n = 0;
     for (size_t e = r->family.start[q]; e < r->family.start[q + 1] && n < PARTS; e++) {
         int part = out->of[r->family.node[e]], known = 0;
-        if (s->direct.alive && !s->direct.alive[p->first_bond[PG_FACETS] + e]) continue;
+        if (s->direct.alive && !s->direct.alive[p->bonds.first[PG_FACETS] + e]) continue;
         for (int k = 0; k < n; k++) known |= seen[k] == part;
         if (known) continue;
         seen[n++] = part;
@@ -248,7 +248,7 @@ static void resist_facet (const body_parts *out, const pg_system *s, const pg_lo
 /* What a support resists that acts on facets, which a set may have where it has no points. */
 static void resist_facets (const body_parts *out, const pg_system *s, const pg_load *load, double *A)
 {
-    const pg_rows *r = &s->problem->rows[PG_FACETS];
+    const pg_rows *r = &s->problem->bonds.rows[PG_FACETS];
     for (size_t q = 0; q < r->n; q++)
         if (pg_problem_owns (s->problem, PG_FACETS, q)
             && pg_search (&r->cell[q], load->set->facet, load->set->nfacet, sizeof (int), ascending_facets))
@@ -280,8 +280,8 @@ static pg_status find_free (body_parts *out, const pg_system *s)
     double *A = NULL, *moved = NULL;
     PG_ALLOC (A, SQUARES * out->n);
     PG_ALLOC (moved, SQUARES * out->n);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (pg_load_prescribes (load) || load->kind == PG_SPRING) resist_all (out, s, load, A);
     }
     PG_TRY (pg_ranks_sum (SQUARES * out->n, A));

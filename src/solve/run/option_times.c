@@ -27,11 +27,12 @@ static int stands_still (const pg_problem *p, const pg_load *load)
 static void need_end (const pg_problem *problem, const pg_scene *scene)
 {
     char path[64];
-    for (size_t i = 0; i < problem->nload; i++) {
+    for (size_t i = 0; i < problem->boundary.nload; i++) {
         snprintf (path, sizeof path, "boundary[%zu].ramp", i);
-        int linear = given (scene, path) ? is (pg_scene_text (scene, "%s", path), "linear")
-                                         : problem->load[i].kind != PG_VELOCITY && !problem->load[i].ntable;
-        if (linear && !stands_still (problem, &problem->load[i]))
+        int linear = given (scene, path)
+                         ? is (pg_scene_text (scene, "%s", path), "linear")
+                         : problem->boundary.load[i].kind != PG_VELOCITY && !problem->boundary.load[i].ntable;
+        if (linear && !stands_still (problem, &problem->boundary.load[i]))
             pg_scene_fault (scene, path,
                             "linear rises up to the end of the run: give solver.end, or solver.dt beside "
                             "solver.time_steps");

@@ -57,8 +57,8 @@ done:
 static void hold_spins (const along_motions *w, char *turned)
 {
     const pg_problem *p = w->s->problem;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || !pg_load_rotates (load)) continue;
         for (size_t i = 0; i < load->set->npoint; i++) {
             const body_part *part = &w->parts.part[w->parts.of[load->set->point[i]]];
@@ -185,19 +185,19 @@ static pg_status say_loads (words *out, const along_motions *w, size_t r)
     const pg_problem *p = w->s->problem;
     double *acts = NULL;
     int count = 0;
-    PG_ALLOC (acts, p->nload);
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    PG_ALLOC (acts, p->boundary.nload);
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (pg_load_prescribes (load) || load->kind == PG_SPRING || load->kind == PG_EIGENSTRAIN
             || !load->set)
             continue;
         for (size_t i = 0; i < load->set->npoint && acts[l] == 0; i++)
             acts[l] = (size_t) w->parts.of[load->set->point[i]] == r;
     }
-    PG_TRY (pg_cloud_most (&p->cloud, p->nload, acts));
-    for (size_t l = 0; l < p->nload; l++)
+    PG_TRY (pg_cloud_most (&p->cloud, p->boundary.nload, acts));
+    for (size_t l = 0; l < p->boundary.nload; l++)
         if (acts[l] > 0 && count++ < 4)
-            say (out, "%s%s", count == 1 ? "; it is loaded by " : ", ", p->load[l].name);
+            say (out, "%s%s", count == 1 ? "; it is loaded by " : ", ", p->boundary.load[l].name);
     if (count > 4) say (out, " and %d more", count - 4);
 done:
     pg_free (acts);
@@ -407,8 +407,8 @@ static const pg_load *stiffest_penalty (const pg_system *s)
 {
     const pg_problem *p = s->problem;
     const pg_load *found = NULL;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (!s->force->method.shape_functions || !pg_load_prescribes (load)
             || load->essential != PG_ESSENTIAL_PENALTY)
             continue;

@@ -86,7 +86,7 @@ static int falls_back (pg_system *s)
     pg_statistics_warn (s->report, "the iterations with finite elements as preconditioner do not converge: a "
                                    "factor of K from step %ld on", s->report->steps);
     system_forget_preconditioner (s);
-    s->choice.mode = SYSTEM_FACTOR, s->direct.stale = 1, s->report->preconditioner[0] = 0;
+    s->choice.mode = SYSTEM_FACTOR, s->direct.stale = 1, s->report->linear.preconditioner[0] = 0;
     memset (s->balance.delta, 0, s->nred * sizeof *s->balance.delta);
     return 1;
 }
@@ -146,8 +146,8 @@ static pg_status iterate_by_diagonal (pg_system *s, const dynamics *dyn, double 
                                       size_t *used)
 {
     pg_status status = system_iterate (s, dyn, NULL, tolerance, limit, used);
-    strcpy (s->report->solver, "cg");
-    if (!system_has_preconditioner (s)) strcpy (s->report->preconditioner, "jacobi");
+    strcpy (s->report->linear.solver, "cg");
+    if (!system_has_preconditioner (s)) strcpy (s->report->linear.preconditioner, "jacobi");
     return status;
 }
 
@@ -178,7 +178,7 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
 {
     system_choice *c = &s->choice;
     pg_status status = PG_OK;
-    size_t used = 0, before = s->report->cg_iterations;
+    size_t used = 0, before = s->report->linear.cg_iterations;
     if (c->mode == SYSTEM_UNDECIDED) PG_TRY (choose (s, dyn));
     PG_TRY (ways_choose (s, dyn));
     if (c->mode == SYSTEM_TRIAL) {
@@ -195,8 +195,8 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
         PG_TRY (solve_without_factor (s, dyn, tolerance));
     if (c->mode == SYSTEM_KEPT_FACTOR) PG_TRY (system_solve_by_kept_factor (s, dyn, tolerance));
     else if (c->mode == SYSTEM_FACTOR) PG_TRY (system_solve_by_factor (s, dyn));
-    if (dyn) ways_count (s, s->report->cg_iterations - before);
+    if (dyn) ways_count (s, s->report->linear.cg_iterations - before);
 done:
-    s->report->solves += status == PG_OK;
+    s->report->linear.solves += status == PG_OK;
     return status;
 }

@@ -68,7 +68,7 @@ pg_status inverse_renew (inverse *v, double k, double m, double spring)
     for (size_t i = 0; i < s->ndof; i++)
         b->diagonal[i] = k * (op ? b->diagonal[i] : K->value[K->start[i + 1] - 1]);
     if (m != 0) system_add_mass_diagonal (s, m, b->diagonal);
-    b->k = k, b->spring = spring, b->factorizations = s->report->factorizations;
+    b->k = k, b->spring = spring, b->factorizations = s->report->linear.factorizations;
     v->rent = v->columns.seconds = 0;
     if (v->keeps != INVERSE_BLOCK) PG_TRY (s->force->spares.change (s->self, &change));   /* begins here */
     set_base (v, 1);
@@ -97,7 +97,7 @@ pg_status inverse_take (inverse *v, inverse_outcome *outcome)
     PG_TRY (v->s->force->spares.change (v->s->self, &change));
     v->loads = change.loads;
     *outcome = INVERSE_LOST;
-    if (v->base.made && v->base.factorizations == v->s->report->factorizations && change.known
+    if (v->base.made && v->base.factorizations == v->s->report->linear.factorizations && change.known
         && !change.basis) {
         if (change.n == 0 && !change.loads) *outcome = INVERSE_SAME;
         else if (inverse_has_room (v, change.n * (size_t) v->s->components)) *outcome = INVERSE_TAKEN;
@@ -263,7 +263,7 @@ pg_status inverse_restore (inverse *v)
         PG_TRY (columns_make (v, first));
     }
     w->t = all, w->factored = 0, g->seconds = green;
-    v->base.factorizations = v->s->report->factorizations;
+    v->base.factorizations = v->s->report->linear.factorizations;
     PG_TRY (v->s->force->spares.change (v->s->self, &change));
 done:
     return status;

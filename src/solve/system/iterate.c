@@ -102,7 +102,7 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, const pg_preconditi
     pg_status status = pg_conjugate_gradients_watched (&op, P, b->reduced, b->delta, tolerance, limit, used,
                                                        &watch);
     b->carried = carries && status == PG_OK;
-    s->report->cg_iterations += *used;
+    s->report->linear.cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
 }

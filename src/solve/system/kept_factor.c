@@ -62,7 +62,7 @@ pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn)
     pg_linear_info info;
     PG_TRY (f->linear->solve (f->factor, 1, s->balance.reduced, s->balance.delta));
     f->linear->info (f->factor, &info);
-    s->report->cg_iterations += info.iterations - s->iterative.matrix_iterations;
+    s->report->linear.cg_iterations += info.iterations - s->iterative.matrix_iterations;
     s->iterative.matrix_iterations = info.iterations;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     int keep = system_operator (s) && strcmp (s->options->linear, "auto") == 0 && !f->indefinite

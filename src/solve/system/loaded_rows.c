@@ -32,14 +32,14 @@ static int is_loaded (const loaded *w, size_t i)
 static double utilisation (const loaded *w, size_t i)
 {
     const pg_problem *p = w->p;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
     double top = 0;
-    if (p->exempt[PG_NODES] && p->exempt[PG_NODES][i]) return 0;
+    if (p->bonds.exempt[PG_NODES] && p->bonds.exempt[PG_NODES][i]) return 0;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
         size_t j = (size_t) f->node[e];
         double xi[3], eta[3], one = 1, u = 0;
-        if (is_loaded (w, j) || (p->exempt[PG_NODES] && p->exempt[PG_NODES][j])) continue;
+        if (is_loaded (w, j) || (p->bonds.exempt[PG_NODES] && p->bonds.exempt[PG_NODES][j])) continue;
         for (size_t k = 0; k < w->dim; k++) {
             xi[k] = p->cloud.x[j * w->dim + k] - p->cloud.x[i * w->dim + k];
             eta[k] = w->d[j * w->stride + k] - w->d[i * w->stride + k];
@@ -94,8 +94,8 @@ pg_status doubt_loaded_rows (pg_solver *s)
     loaded w = { p, (size_t) p->dim, (size_t) sys->components, NULL, NULL, NULL, 1e-6 * p->cloud.h };
     double *rest = NULL, unused;
     size_t any = 0;
-    for (size_t l = 0; l < p->nload; l++)
-        any += p->load[l].kind == PG_TRACTION || p->load[l].kind == PG_PRESSURE;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        any += p->boundary.load[l].kind == PG_TRACTION || p->boundary.load[l].kind == PG_PRESSURE;
     if (!any || s->options.event || p->method->shape_functions || !pg_criterion_of_bonds (p->criterion)
         || p->criterion->type->needs != PG_NEEDS_STRETCH || system_is_shared (sys))
         return PG_OK;
@@ -113,8 +113,8 @@ pg_status doubt_loaded_rows (pg_solver *s)
     }
     PG_TRY (sys->force->balance (sys->self, t, w.d, w.hold, &unused));
     for (size_t i = 0; i < sys->ndof; i++) w.hold[i] -= rest[i];
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE) continue;
         double acts, share = share_of (&w, load, &acts);
         if (share > most) tell (&s->report, p, load, acts, share);

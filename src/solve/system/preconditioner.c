@@ -106,8 +106,8 @@ static void tell (pg_system *s)
 {
     system_iterations *it = &s->iterative;
     pg_multilevel_info info;
-    char *text = s->report->preconditioner;
-    size_t workspace = sizeof s->report->preconditioner, at = 0;
+    char *text = s->report->linear.preconditioner;
+    size_t workspace = sizeof s->report->linear.preconditioner, at = 0;
     if (it->elements && system_is_shared (s)) {
         pg_element_preconditioner_describe (it->elements, text, workspace);
         return;
@@ -192,7 +192,7 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     if (!whole)
         PG_TRY (s->force->spares.elements ? make_by_elements (s, k, m)
                 : system_is_shared (s) ? system_make_shared (s, k, m) : make_by_rows (s));
-    s->report->preconditioners++;
+    s->report->linear.preconditioners++;
     s->choice.extra_cost = s->iterative.pace = 0;
     if (!system_by_ranks (s)) tell (s);
     PG_TRY (system_remember_alive (s));
@@ -245,7 +245,7 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
     if (status == PG_OK)
         status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
     for (size_t j = 0; j < s->nred; j++) s->balance.delta[j] = s->balance.full[T ? (size_t) T->row[j] : j];
-    s->report->cg_iterations += *used;
+    s->report->linear.cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
 }
@@ -302,7 +302,7 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
     system_iterations *it = &s->iterative;
     pg_status status = PG_OK;
     size_t used = 0;
-    long made = s->report->preconditioners;
+    long made = s->report->linear.preconditioners;
     double k = dyn ? dyn->k : 1, m = dyn ? dyn->m : 0;
     system_remember_diagonal (s, NULL);
     int other = fabs (m * it->made[0] - it->made[1] * k) > 0.3 * fmax (m * it->made[0], it->made[1] * k);
@@ -310,10 +310,10 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
         PG_TRY (system_make_preconditioner (s, k, m));
     else s->choice.spared += s->direct.stale;
     if (system_is_shared (s) && s->direct.stale) PG_TRY (system_find_bare (s, dyn));
-    strcpy (s->report->solver, "cg");
+    strcpy (s->report->linear.solver, "cg");
     pg_status now = iterate (s, dyn, tolerance, &used);
     /* made before the last break: once more */
-    if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->report->preconditioners == made) {
+    if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->report->linear.preconditioners == made) {
         PG_TRY (system_make_preconditioner (s, k, m));
         now = iterate (s, dyn, tolerance, &used);
     }

@@ -110,7 +110,7 @@ static int accept_carried (pg_system *s, double *relative)
 {
     system_balance *b = &s->balance;
     const pg_sparse *T = system_basis (s);
-    if (!b->carried || *relative > 0.1 || s->report->solves % MEASURED_AGAIN == 0) return 0;
+    if (!b->carried || *relative > 0.1 || s->report->linear.solves % MEASURED_AGAIN == 0) return 0;
     if (T) pg_sparse_multiply_transposed (T, b->residual, b->reduced);
     double size = system_norm (s, T ? b->reduced : b->residual, s->nred);
     if (!(size <= 0.1 * s->options->tolerance * b->reference)) return 0;

@@ -178,8 +178,8 @@ pg_status system_make_shared_factor (pg_system *s, int *made)
         goto done;
     }
     PG_TRY (now);
-    snprintf (s->report->preconditioner, sizeof s->report->preconditioner, "%s, %zu unknowns on every rank",
-              f->type->name, f->n);
+    snprintf (s->report->linear.preconditioner, sizeof s->report->linear.preconditioner,
+              "%s, %zu unknowns on every rank", f->type->name, f->n);
 done:
     pg_sparse_clear (&A);
     pg_free (mine), pg_free (all);

@@ -124,9 +124,9 @@ static pg_status make_levels (pg_system *s, const pg_couplings *rows)
     if (moves) setting.rows.context = s, setting.rows.row = row_made, setting.rows.alike = NULL;
     for (int k = 0; k < s->problem->dim; k++) setting.rows.lattice[k] = s->problem->sums->sites.step[k];
     PG_TRY (pg_multilevel_create (&it->multilevel, &setting));
-    size_t size = sizeof s->report->preconditioner,
-           at = (size_t) snprintf (s->report->preconditioner, size, "multilevel, ");
-    pg_multilevel_describe_shared (it->multilevel, s->report->preconditioner + at, size - at);
+    size_t size = sizeof s->report->linear.preconditioner,
+           at = (size_t) snprintf (s->report->linear.preconditioner, size, "multilevel, ");
+    pg_multilevel_describe_shared (it->multilevel, s->report->linear.preconditioner + at, size - at);
 done:
     return status;
 }
@@ -147,7 +147,7 @@ pg_status system_make_shared (pg_system *s, double k, double m)
         goto done;
     }
     PG_TRY (type->create (&it->amg, &setting));
-    type->describe (it->amg, s->report->preconditioner, sizeof s->report->preconditioner);
+    type->describe (it->amg, s->report->linear.preconditioner, sizeof s->report->linear.preconditioner);
 done:
     return status;
 }

@@ -86,7 +86,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     else s->choice.kept++;
     if (changes && now != f->revision) ways_note_broken (s, changes->n);
     f->revision = now;
-    s->report->updates += changes != NULL;
+    s->report->linear.updates += changes != NULL;
     if (status == PG_OK) status = system_note_change (s);
     if (status == PG_OK && s->client) status = s->client->refresh (s, state, changes);
     s->report->seconds[changes ? PG_SECONDS_UPDATE : PG_SECONDS_SHAPE] += pg_seconds () - t0;

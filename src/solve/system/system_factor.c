@@ -138,9 +138,9 @@ static pg_status analyse (pg_system *s)
     PG_TRY (f->linear->analyse (&f->factor, &f->A, &o));
     pg_linear_info info;
     f->linear->info (f->factor, &info);
-    s->report->factor_entries = info.factor_entries, s->report->factor_flops = info.flops;
-    strncpy (s->report->ordering, info.ordering, sizeof s->report->ordering - 1);
-    strncpy (s->report->solver, f->linear->name, sizeof s->report->solver - 1);
+    s->report->linear.factor_entries = info.factor_entries, s->report->linear.factor_flops = info.flops;
+    strncpy (s->report->linear.ordering, info.ordering, sizeof s->report->linear.ordering - 1);
+    strncpy (s->report->linear.solver, f->linear->name, sizeof s->report->linear.solver - 1);
 done:
     s->report->seconds[PG_SECONDS_ANALYSE] += pg_seconds () - t0;
     return status;
@@ -202,7 +202,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
         if (!f->factor) PG_TRY (analyse (s));
         t0 = pg_seconds ();
         pg_status now = make_factor (s, dyn);
-        s->report->factorizations++;
+        s->report->linear.factorizations++;
         s->report->seconds[PG_SECONDS_FACTOR] += pg_seconds () - t0;
         if (now == PG_OK && !(f->shift == 0 && pivots (s) < least_pivot)) break;
         if (now != PG_E_NOT_SPD) PG_TRY (now);

@@ -90,8 +90,8 @@ void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 void system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched)
 {
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &s->problem->rows[set].family;
-        const unsigned char *alive = bonds + s->problem->first_bond[set];
+        const pg_family *f = &s->problem->bonds.rows[set].family;
+        const unsigned char *alive = bonds + s->problem->bonds.first[set];
         for (size_t p = 0; p < f->n; p++) {
             if (!memchr (alive + f->start[p], 0, f->start[p + 1] - f->start[p])) continue;
             for (size_t e = f->start[p]; e < f->start[p + 1]; e++) touched[f->node[e]] = 1;
@@ -116,7 +116,7 @@ pg_status system_remember_alive (pg_system *s)
 {
     system_factor *f = &s->direct;
     pg_status status = PG_OK;
-    size_t nbond = s->problem->first_bond[PG_BOND_SETS];
+    size_t nbond = s->problem->bonds.first[PG_BOND_SETS];
     if (!f->alive) return PG_OK;
     if (!f->factored) PG_ALLOC (f->factored, nbond);
     memcpy (f->factored, f->alive, nbond);
@@ -130,10 +130,10 @@ done:
 double system_apply_cost (const pg_system *s)
 {
     const pg_problem *p = s->problem;
-    if (p->sums) return (p->sums->stencil.n ? 0.6e-9 : 3e-9) * (double) p->first_bond[PG_BOND_SETS];
+    if (p->sums) return (p->sums->stencil.n ? 0.6e-9 : 3e-9) * (double) p->bonds.first[PG_BOND_SETS];
     return pg_solve_apply_rate
-           * (double) (p->first_bond[PG_BOND_SETS]
-                       - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
+           * (double) (p->bonds.first[PG_BOND_SETS]
+                       - (p->form.integration->at_nodes ? 0 : p->bonds.first[PG_POINTS]));
 }
 
 double system_assembly_cost (const pg_system *s)
@@ -150,6 +150,6 @@ double system_direct_cost (const pg_system *s)
 }
 
 /* Supernodal factorization. */
-double system_factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
+double system_factor_cost (const pg_system *s) { return s->report->linear.factor_flops / 20e9; }
 /* Four passes over the factor: two triangular solves, each read twice over a refinement. */
-double system_solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
+double system_solve_cost (const pg_system *s) { return 4 * s->report->linear.factor_entries / 3e9; }

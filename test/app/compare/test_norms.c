@@ -100,7 +100,7 @@ static void intact_bodies_are_sampled_like_others (void **unused)
         run r = plate (&methods[m], "");
         refresh (&r, NULL);
         enum { COUNT = 400 };
-        size_t n = r.problem->cloud.n, last = r.problem->first_bond[PG_NODES + 1] - 1;
+        size_t n = r.problem->cloud.n, last = r.problem->bonds.first[PG_NODES + 1] - 1;
         double *d = pg_calloc (2 * n, 8), x[2 * COUNT], u[3 * COUNT], s[6 * COUNT], v[3 * COUNT],
                t[6 * COUNT];
         for (size_t i = 0; i < 2 * n; i++) d[i] = sin ((double) (i * i % 97));
@@ -108,7 +108,7 @@ static void intact_bodies_are_sampled_like_others (void **unused)
             x[2 * i] = 0.02 + 0.4 * (double) (i % 20) / 19,
                   x[2 * i + 1] = 0.03 + 0.3 * (double) (i / 20) / 19;
         sample (&r, d, COUNT, x, u, s);
-        while (r.problem->rows[PG_NODES].family.node[last] == (int) n - 1) last--;
+        while (r.problem->bonds.rows[PG_NODES].family.node[last] == (int) n - 1) last--;
         r.state->alive[last] = 0;
         sample (&r, d, COUNT, x, v, t);
         assert_memory_equal (u, v, sizeof u);
@@ -158,12 +158,12 @@ static void faces_of_a_crack_stay_apart (void **unused)
         clear (&r);
         r = cells_plate (k ? "nodal" : "gauss", "");
         for (int s = 0; s < PG_BOND_SETS; s++) {
-            const pg_rows *rows = &r.problem->rows[s];
+            const pg_rows *rows = &r.problem->bonds.rows[s];
             for (size_t p = 0; p < rows->n; p++)
                 for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++)
                     if ((rows->x[2 * p + 1] > 0.4)
                         != (r.problem->cloud.x[2 * (size_t) rows->family.node[e] + 1] > 0.4))
-                        r.state->alive[r.problem->first_bond[s] + e] = 0;
+                        r.state->alive[r.problem->bonds.first[s] + e] = 0;
         }
         refresh (&r, NULL);
         check_jump (&r);

@@ -63,7 +63,7 @@ static void a_folder_gives_its_run_back (void **state)
         double stress;
         check_ok (pg_stored_open (&s, path, -1, 1));
         assert_int_equal (s->step, 3);
-        assert_true (s->t == 1 && s->problem->approx.order == r.problem->approx.order);
+        assert_true (s->t == 1 && s->problem->form.approx.order == r.problem->form.approx.order);
         assert_string_equal (pg_scene_hash (s->scene), pg_scene_hash (r.scene));
         assert_string_equal (s->how, "by its own shape functions");
         check_below (difference (&r, s, &stress), 1e-14);

@@ -39,10 +39,10 @@ static void counts_as_built (const char *text)
     assert_true (f.counted);
     assert_true (f.points == (double) p->cloud.n);
     assert_true (f.cells == (double) p->cells.n);
-    assert_true (f.evaluation == (double) p->rows[PG_POINTS].n);
-    assert_true (f.bonds[PG_NODES] == (double) p->first_bond[1]);
-    assert_true (f.bonds[PG_POINTS] == (double) (p->first_bond[2] - p->first_bond[1]));
-    const pg_family *bulk = &p->rows[f.nodal ? PG_NODES : PG_POINTS].family;
+    assert_true (f.evaluation == (double) p->bonds.rows[PG_POINTS].n);
+    assert_true (f.bonds[PG_NODES] == (double) p->bonds.first[1]);
+    assert_true (f.bonds[PG_POINTS] == (double) (p->bonds.first[2] - p->bonds.first[1]));
+    const pg_family *bulk = &p->bonds.rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
     check_ok (p->sums ? pg_assembly_graph_pairwise (&G, bulk)
                       : pg_assembly_graph (&G, p->cloud.n, 1, &bulk));
@@ -131,8 +131,8 @@ static void test_cut (void **state)
         assert_false (f.counted);
         assert_true (f.points == (double) p->cloud.n);
         check_relative (f.cells, (double) p->cells.n, 0.05);
-        check_relative (f.evaluation, (double) p->rows[PG_POINTS].n, 0.1);
-        check_relative (f.bonds[PG_POINTS], (double) (p->first_bond[2] - p->first_bond[1]), 0.06);
+        check_relative (f.evaluation, (double) p->bonds.rows[PG_POINTS].n, 0.1);
+        check_relative (f.bonds[PG_POINTS], (double) (p->bonds.first[2] - p->bonds.first[1]), 0.06);
         check_ok (pg_forecast_problem (&f, p));
         assert_true (f.counted && f.cells == (double) p->cells.n);
         unbuild (&b);
@@ -147,11 +147,12 @@ static void test_a_sample_is_near_the_count (void **state)
     built b = build (text);
     assert_false (f.counted);
     assert_true (f.points == (double) b.problem->cloud.n);
-    check_relative (f.bonds[PG_NODES], (double) b.problem->first_bond[1], 0.01);
-    check_relative (f.bonds[PG_POINTS], (double) (b.problem->first_bond[2] - b.problem->first_bond[1]), 0.01);
+    check_relative (f.bonds[PG_NODES], (double) b.problem->bonds.first[1], 0.01);
+    check_relative (f.bonds[PG_POINTS], (double) (b.problem->bonds.first[2] - b.problem->bonds.first[1]),
+                    0.01);
     check_ok (pg_forecast_problem (&f, b.problem));
     assert_true (f.counted
-                 && f.bonds[PG_POINTS] == (double) (b.problem->first_bond[2] - b.problem->first_bond[1]));
+                 && f.bonds[PG_POINTS] == (double) (b.problem->bonds.first[2] - b.problem->bonds.first[1]));
     unbuild (&b);
 }
 
@@ -164,7 +165,7 @@ static void test_parted_bonds_are_estimated (void **state)
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         pg_forecast f = forecast (text[i]);
         built b = build (text[i]);
-        double n = (double) b.problem->first_bond[1];
+        double n = (double) b.problem->bonds.first[1];
         assert_false (f.counted);
         check_relative (f.bonds[PG_NODES], n, 0.2);
         assert_true (f.bonds[PG_NODES] > n - (double) i);
@@ -198,7 +199,7 @@ static void factor_is_near (const char *text, double tolerance)
     pg_forecast f = forecast (text);
     pg_linear_info info;
     built b = build (text);
-    const pg_family *bulk = &b.problem->rows[f.nodal ? PG_NODES : PG_POINTS].family;
+    const pg_family *bulk = &b.problem->bonds.rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
     check_ok (pg_assembly_graph (&G, b.problem->cloud.n, 1, &bulk));
     check_ok (pg_linear_forecast (&G, f.dim, 0, &info));
@@ -221,7 +222,8 @@ static void test_law_of_wide_bonds (void **state)
 static pg_forecast analysed (const built *b, const char *text)
 {
     pg_forecast f = forecast (text);
-    const pg_family *seen[2] = { &b->problem->rows[PG_POINTS].family, &b->problem->rows[PG_FACETS].family };
+    const pg_family *seen[2] = { &b->problem->bonds.rows[PG_POINTS].family,
+                                 &b->problem->bonds.rows[PG_FACETS].family };
     pg_sparse G;
     pg_linear_info info;
     check_ok (pg_forecast_problem (&f, b->problem));
@@ -244,8 +246,8 @@ static void run_has_this_factor (const char *text)
     check_ok (pg_solver_create (&solver, b.problem, &o));
     check_ok (pg_state_create (&s, b.problem, pg_solver_components (solver)));
     check_ok (pg_solver_step (solver, s, &step));
-    assert_true (pg_solver_report_now (solver)->factor_entries == f.factor_entries);
-    assert_string_equal (pg_solver_report_now (solver)->ordering, f.ordering);
+    assert_true (pg_solver_report_now (solver)->linear.factor_entries == f.factor_entries);
+    assert_string_equal (pg_solver_report_now (solver)->linear.ordering, f.ordering);
     pg_state_free (&s), pg_solver_free (&solver);
     unbuild (&b);
 }

@@ -250,13 +250,14 @@ static double estimate_of (const char *scene, double angle)
     make_folder (where);
     check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t i = 0; i < p->rows[set].n; i++)
-            for (size_t b = p->rows[set].family.start[i]; b < p->rows[set].family.start[i + 1]; b++) {
-                const double *a = p->rows[set].x + i * (size_t) p->dim,
-                             *c = p->cloud.x + (size_t) p->rows[set].family.node[b] * (size_t) p->dim;
+        for (size_t i = 0; i < p->bonds.rows[set].n; i++)
+            for (size_t b = p->bonds.rows[set].family.start[i]; b < p->bonds.rows[set].family.start[i + 1];
+                 b++) {
+                const double *a = p->bonds.rows[set].x + i * (size_t) p->dim,
+                             *c = p->cloud.x + (size_t) p->bonds.rows[set].family.node[b] * (size_t) p->dim;
                 double s = -sin (angle) * (a[0] - 0.501) + cos (angle) * (a[1] - 0.503),
                        e = -sin (angle) * (c[0] - 0.501) + cos (angle) * (c[1] - 0.503);
-                if (s * e < 0) r.state->alive[p->first_bond[set] + b] = 0, r.state->broken++;
+                if (s * e < 0) r.state->alive[p->bonds.first[set] + b] = 0, r.state->broken++;
             }
     check_ok (pg_solver_force (r.solver, &self)->refresh (self, r.state, NULL));
     check_ok (pg_result_finish (result, r.state, NULL, 0, 0));

@@ -102,9 +102,9 @@ static void an_end_on_a_crack_is_told (void **state)
     run r = prepare (1, SQUARE "output: {gauges: [{name: mouth, from: [0.1, 0], to: [0.1, 0.2]}, {name: "
                                "other, from: [0.1, -0.1], to: [0.1, 0.1]}]}\n");
     int told = 0;
-    for (size_t k = 0; k < r.problem->nnote; k++) {
-        told += strstr (r.problem->note[k], "warning: gauge mouth: from lies on a crack") != NULL;
-        assert_null (strstr (r.problem->note[k], "gauge other"));
+    for (size_t k = 0; k < r.problem->notes.n; k++) {
+        told += strstr (r.problem->notes.text[k], "warning: gauge mouth: from lies on a crack") != NULL;
+        assert_null (strstr (r.problem->notes.text[k], "gauge other"));
     }
     assert_int_equal (told, 1);
     clear (&r);

@@ -35,8 +35,8 @@ static void keep_step (void)
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     double a[3], b[3];
     assert_true (nstep < MOST);
-    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].from, a, NULL, NULL));
-    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].to, b, NULL, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->boundary.gauge[0].from, a, NULL, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->boundary.gauge[0].to, b, NULL, NULL));
     opening[nstep] = b[1] - a[1];
     memcpy (reaction[nstep], r.step.reaction, sizeof reaction[nstep]);
     nbroken += r.step.nbroken;
@@ -258,12 +258,12 @@ static void the_report_tells_what_happened (void **state)
     const pg_statistics *report = pg_solver_report_now (r.solver);
     check_relative (json_number (text, NULL, "points"), 121, 0);
     check_relative (json_number (text, NULL, "dofs"), 242, 0);
-    check_relative (json_number (text, NULL, "bonds"), (double) r.problem->first_bond[PG_BOND_SETS], 0);
+    check_relative (json_number (text, NULL, "bonds"), (double) r.problem->bonds.first[PG_BOND_SETS], 0);
     check_relative (json_number (text, NULL, "steps"), (double) nstep, 0);
     check_relative (json_number (text, NULL, "events"), 12, 0);
     check_relative (json_number (text, NULL, "broken"), (double) nbroken, 0);
     check_relative (json_number (text, NULL, "updates"), 12, 0);
-    check_relative (json_number (text, "energy", "external"), report->energy_external, 1e-12);
+    check_relative (json_number (text, "energy", "external"), report->energy.external, 1e-12);
     check_relative (json_number (text, "seconds", "search"), 0.25, 1e-15);
     /* what finishing took is added to the seconds before it, no more than that */
     assert_true (json_number (text, "seconds", "total") > 3.5);

@@ -128,7 +128,7 @@ static void test_idle (void **state)
     run r = { 0 };
     pg_equations e;
     solve (&r, scene_of ("force: bond, horizon: 2 spacing", ""));
-    const pg_family *f = &r.problem->rows[PG_NODES].family;
+    const pg_family *f = &r.problem->bonds.rows[PG_NODES].family;
     check_ok (pg_equations_create (&e, r.problem, r.state, 0.5));
     size_t idle = e.idle, kept = e.T.ncol;             /* points on the crack have none from the start */
     pg_equations_clear (&e);

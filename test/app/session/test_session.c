@@ -179,7 +179,7 @@ static void test_set (void **state)
     v[3] = NAN;
     check_fails (pg_session_set (s, "displacement", at->ndof, v), PG_E_USAGE);
     go (s, 1);
-    assert_true (pg_solver_report_now (pg_session_solver (s))->energy_kinetic > 0);
+    assert_true (pg_solver_report_now (pg_session_solver (s))->energy.kinetic > 0);
     check_fails (pg_session_set (s, "velocity", at->ndof, v), PG_E_USAGE);
     check_contains (pg_last_error (), "before the first step");
     pg_session_close (&s);
@@ -198,7 +198,7 @@ static int crosses (const pg_problem *p, size_t point, int node)
 
 static size_t list_across (const pg_problem *p, size_t *list)
 {
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     size_t n = 0;
     for (size_t i = 0; i < f->n; i++)
         for (size_t b = f->start[i]; b < f->start[i + 1]; b++)
@@ -216,7 +216,7 @@ static void check_cut (const char *solver, int before)
     const pg_problem *p = pg_session_problem (s);
     const pg_state *at = pg_session_state (s);
     size_t *list = pg_calloc (at->nbond, sizeof *list), n = list_across (p, list), live = 0;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     go (s, before);
     check_ok (pg_session_cut (s, n, list));
     for (size_t i = 0; i < f->n; i++)

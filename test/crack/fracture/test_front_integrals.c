@@ -137,8 +137,8 @@ static errors of_penny (exact *m, double unit, const double *normal, double radi
               "{disc: {center: [%.17g, %.17g, %.17g], normal: [%.17g, %.17g, %.17g], radius: %.17g}}",
               m->origin[0], m->origin[1], m->origin[2], normal[0], normal[1], normal[2], radius);
     tested t = make (m, unit, crack);
-    size_t n = t.problem->front[0].n;
-    axes_about (t.problem->front[0].normal, m->axes);
+    size_t n = t.problem->crack.front[0].n;
+    axes_about (t.problem->crack.front[0].normal, m->axes);
     pg_tip_field *f = calloc (n, sizeof *f);
     const double *d = t.state->d, one = 1;
     errors out = { 0 };
@@ -218,8 +218,8 @@ static void check_straight (exact *m, double unit, size_t margin, int nfield)
                           i ? ", " : "", corner[i][0], corner[i][1], corner[i][2]);
     snprintf (crack + used, sizeof crack - (size_t) used, "]}");
     tested tst = make (m, unit, crack);
-    assert_int_equal (tst.problem->nfront, 1);
-    size_t n = tst.problem->front[0].n, seen = 0;
+    assert_int_equal (tst.problem->crack.nfront, 1);
+    size_t n = tst.problem->crack.front[0].n, seen = 0;
     pg_tip_field *f = calloc (n, sizeof *f);
     double *second = calloc (tst.state->ndof, sizeof *second), factor[2] = { 1, 1 },
            E = m->E / (1 - m->nu * m->nu), mu = m->E / (2 * (1 + m->nu));
@@ -313,16 +313,16 @@ static double radius_of (const char *cracks, double *room)
 {
     exact m = { .E = 3e9, .nu = 0.3, .K = { { 1e6, 0, 0 } } };
     tested t = make (&m, 1, cracks);
-    size_t n = t.problem->front[0].n;
-    memcpy (m.axes, t.problem->front[0].ahead, 3 * sizeof (double));
-    memcpy (m.axes + 3, t.problem->front[0].normal, 3 * sizeof (double));
+    size_t n = t.problem->crack.front[0].n;
+    memcpy (m.axes, t.problem->crack.front[0].ahead, 3 * sizeof (double));
+    memcpy (m.axes + 3, t.problem->crack.front[0].normal, 3 * sizeof (double));
     for (int k = 0; k < 3; k++) {
         int a = (k + 1) % 3, b = (k + 2) % 3;
         m.axes[6 + k] = m.axes[a] * m.axes[3 + b] - m.axes[b] * m.axes[3 + a];
     }
     pg_tip_field *f = calloc (n, sizeof *f);
     const double *d = t.state->d, one = 1;
-    memcpy (m.origin, t.problem->front[0].x, sizeof m.origin);
+    memcpy (m.origin, t.problem->crack.front[0].x, sizeof m.origin);
     check_ok (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, &d, &one, NULL));
     double near = f[n / 2].near / 0.1;
     *room = f[n / 2].room / 0.1;
@@ -363,7 +363,7 @@ static void what_cannot_be_measured (void **state)
     (void) state;
     exact m = { .E = 3e9, .nu = 0.3, .K = { { 1e6, 0, 0 } }, .axes = { 1, 0, 0, 0, 0, 1, 0, -1, 0 } };
     tested t = make (&m, 1, CUT ("0.1"));
-    size_t n = t.problem->front[0].n;
+    size_t n = t.problem->crack.front[0].n;
     pg_tip_field *f = calloc (n, sizeof *f);
     const double *d[3] = { t.state->d, t.state->d, t.state->d }, time[3] = { 1, 1, 1 };
     check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 1, 1, d, time, NULL), PG_E_USAGE);

@@ -87,14 +87,14 @@ static void nothing_is_seen_across_a_crack (void **state)
         run r = made (drawn ? "method: {force: bond}\ncracks: [{from: [-0.1, 0.5], to: [2.1, 0.5]}]\n"
                             : "method: {force: bond}\n");
         const pg_problem *p = r.problem;
-        const pg_rows *rows = &p->rows[PG_NODES];
+        const pg_rows *rows = &p->bonds.rows[PG_NODES];
         gradient_fit *fit;
         double H[9], exact[4];
         const double *d = r.state->d;
         for (size_t i = 0; i < rows->n; i++)
             for (size_t e = rows->family.start[i]; e < rows->family.start[i + 1]; e++) {
                 double yi = p->cloud.x[2 * i + 1], yj = p->cloud.x[2 * (size_t) rows->family.node[e] + 1];
-                if ((yi - 0.5) * (yj - 0.5) < 0) r.state->alive[p->first_bond[PG_NODES] + e] = drawn == 2;
+                if ((yi - 0.5) * (yj - 0.5) < 0) r.state->alive[p->bonds.first[PG_NODES] + e] = drawn == 2;
             }
         fill (&r, two_sides);
         check_ok (gradient_fit_create (&fit, p, r.state));
@@ -126,8 +126,8 @@ static void what_nothing_holds_has_no_part (void **state)
     for (size_t kept = 1; kept < 3; kept++) {
         run r = scene_of (1, "%s", lattice);
         const pg_problem *p = r.problem;
-        const pg_family *f = &p->rows[PG_NODES].family;
-        unsigned char *alive = r.state->alive + p->first_bond[PG_NODES];
+        const pg_family *f = &p->bonds.rows[PG_NODES].family;
+        unsigned char *alive = r.state->alive + p->bonds.first[PG_NODES];
         gradient_fit *fit;
         double H[9], exact[4], x[2] = { 1.13, 0.47 };
         const double *d = r.state->d;
@@ -189,7 +189,7 @@ static void points_on_a_line_have_none (void **state)
 {
     run r = prepare (1, lattice);
     const pg_problem *p = r.problem;
-    const pg_rows *rows = &p->rows[PG_NODES];
+    const pg_rows *rows = &p->bonds.rows[PG_NODES];
     gradient_fit *fit;
     const double *d = r.state->d, x[2] = { 1.05, 0.55 };
     double H[9];
@@ -197,7 +197,7 @@ static void points_on_a_line_have_none (void **state)
     for (size_t i = 0; i < rows->n; i++)
         for (size_t e = rows->family.start[i]; e < rows->family.start[i + 1]; e++)
             if (fabs (p->cloud.x[2 * i + 1] - p->cloud.x[2 * (size_t) rows->family.node[e] + 1]) > 0.01)
-                r.state->alive[p->first_bond[PG_NODES] + e] = 0;
+                r.state->alive[p->bonds.first[PG_NODES] + e] = 0;
     fill (&r, quadratic);
     check_ok (gradient_fit_create (&fit, p, r.state));
     assert_int_equal (gradient_fit_at (fit, x, 1, &d, NULL, H), 0);

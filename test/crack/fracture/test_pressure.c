@@ -27,7 +27,7 @@ static pg_tip_field opened (double unit, const char *loads)
     to_the_end (&r);
     pg_tip_field f = first_tip (&r);
     const pg_statistics *now = pg_solver_report_now (r.solver);
-    check_relative (now->energy_external, now->energy_strain, 1e-9);
+    check_relative (now->energy.external, now->energy.strain, 1e-9);
     clear (&r);
     return f;
 }
@@ -74,8 +74,8 @@ static void new_faces_bear_it (void **state)
         for (int i = 0; i < 5; i++) advance (&r), load[k][i] = r.step.factor;
         const pg_statistics *now = pg_solver_report_now (r.solver);
         print_message ("dissipated over fracture energy times area %.4f\n",
-                       now->energy_dissipated / (3 * 0.3 * r.state->paths->length));
-        check_relative (now->energy_dissipated, 3 * 0.3 * r.state->paths->length, 0.04);
+                       now->energy.dissipated / (3 * 0.3 * r.state->paths->length));
+        check_relative (now->energy.dissipated, 3 * 0.3 * r.state->paths->length, 0.04);
         check_relative (r.state->paths->length, 5.0 / 40, 1e-6);
         clear (&r);
     }

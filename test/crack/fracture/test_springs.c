@@ -30,7 +30,7 @@ static answer edge (double a, const char *method, const char *boundary)
     to_the_end (&r);
     pg_tip_field f = first_tip (&r);
     out = (answer){ f.J[0][0], { f.K_wide[0][0], f.K_wide[1][0] }, pg_tip_uncertainty (&f, 1, &one),
-                    pg_solver_report_now (r.solver)->energy_external };
+                    pg_solver_report_now (r.solver)->energy.external };
     clear (&r);
     return out;
 }
@@ -124,14 +124,14 @@ static answer round_crack (double a, const char *boundary)
     to_the_end (&r);
     d = r.state->d;
     const pg_force_type *force = pg_solver_force (r.solver, &self);
-    size_t n = r.problem->front[0].n;
+    size_t n = r.problem->crack.front[0].n;
     pg_tip_field *f = pg_calloc (n, sizeof *f);
     check_ok (pg_front_measure (f, r.problem, force, self, r.state, 0, 1, &d, &one, NULL));
     for (size_t i = 0; i < n; i++) {
         assert_true (f[i].wide > 2);                  /* springs end no tube */
         out.J += f[i].J[0][0] / (double) n, out.K[0] += f[i].K[0][0] / (double) n;
     }
-    out.work = pg_solver_report_now (r.solver)->energy_external;
+    out.work = pg_solver_report_now (r.solver)->energy.external;
     pg_free (f);
     clear (&r);
     return out;

@@ -92,7 +92,7 @@ static void fronts_do_not_see_a_turn (void **state)
         void *self;
         to_the_end (&r);
         const pg_force_type *force = pg_solver_force (r.solver, &self);
-        size_t n = r.problem->front[0].n;
+        size_t n = r.problem->crack.front[0].n;
         pg_tip_field *before = pg_calloc (n, sizeof *before), *after = pg_calloc (n, sizeof *after);
         d = r.state->d, more = turned (&r, w);
         check_ok (pg_front_measure (before, r.problem, force, self, r.state, 0, 1, &d, &one, NULL));

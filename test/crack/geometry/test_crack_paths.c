@@ -90,10 +90,10 @@ static void points_on_the_line_stay_on_its_left (void **state)
 #define NEAR_TIP "method: {tip_offset: 0.1 spacing}\n"
         growing g = begin (turn ? CRACKED ("{from: [0.3, 0.2], to: [-0.1, 0.2]}", NEAR_TIP)
                                 : CRACKED ("{from: [-0.1, 0.2], to: [0.3, 0.2]}", NEAR_TIP));
-        assert_int_equal (g.p->eroded, 3);             /* of the scene's crack, the tip's own point lives */
+        assert_int_equal (g.p->crack.eroded, 3); /* of the scene's crack, the tip's own point lives */
         for (int k = 0; k < 4; k++) grow (&g, 0, 0.4 + 0.1 * k, 0.2, 0);
         check_mask (&g, 1);
-        const pg_family *f = &g.p->rows[PG_NODES].family;
+        const pg_family *f = &g.p->bonds.rows[PG_NODES].family;
         for (size_t i = 0; i < g.p->cloud.n; i++) {
             const double *x = g.p->cloud.x + 2*i;
             if (fabs (x[1] - 0.2) > 1e-9 || x[0] < 0.25 || x[0] > 0.65) continue;
@@ -123,13 +123,14 @@ static void a_closed_path_severs_the_body (void **state)
     check_mask (&g, 1);
     size_t severed = 0;
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < g.p->rows[set].n; q++)
-            for (size_t e = g.p->rows[set].family.start[q]; e < g.p->rows[set].family.start[q + 1]; e++) {
-                const double *a = g.p->rows[set].x + 2*q,
-                             *b = g.p->cloud.x + 2 * (size_t) g.p->rows[set].family.node[e];
+        for (size_t q = 0; q < g.p->bonds.rows[set].n; q++)
+            for (size_t e = g.p->bonds.rows[set].family.start[q];
+                 e < g.p->bonds.rows[set].family.start[q + 1]; e++) {
+                const double *a = g.p->bonds.rows[set].x + 2*q,
+                             *b = g.p->cloud.x + 2 * (size_t) g.p->bonds.rows[set].family.node[e];
                 int apart = (a[1] < 0.26 + 0.1 * fmax (0, a[0] - 0.42))
                             != (b[1] < 0.26 + 0.1 * fmax (0, b[0] - 0.42));
-                if (apart) assert_false (g.s->alive[g.p->first_bond[set] + e]);
+                if (apart) assert_false (g.s->alive[g.p->bonds.first[set] + e]);
                 severed += (size_t) apart;
             }
     assert_true (severed > 200);
@@ -148,7 +149,7 @@ static void points_beyond_the_surface_are_severed (void **state)
     grow (&g, 0, 0.1 + pg_tip_ahead (&g.ground, g.s->paths, 0, (double[]) { 1, 0 }, 1, NULL), 0.03, 1);
     check_relative (g.s->paths->tip[0].x[0], sqrt (0.25 - 0.0009), 1e-12);
     check_mask (&g, 1);
-    const pg_family *f = &g.p->rows[PG_NODES].family;
+    const pg_family *f = &g.p->bonds.rows[PG_NODES].family;
     for (size_t i = 0; i < g.p->cloud.n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             const double *a = g.p->cloud.x + 2*i, *b = g.p->cloud.x + 2 * (size_t) f->node[e];
@@ -245,7 +246,7 @@ static void cracks_that_meet_end (void **state)
     const pg_crack whole = { .kind = PG_CRACK_SEGMENT, .vertex = (double[]) { -0.1, 0.26, 0.8, 0.26 },
                              .nvertex = 2, .normal = { 0, 1 },
                              .retreat = (double[]) { 0, g.s->paths->tip[2].offset } };
-    const pg_family *f = &g.p->rows[PG_NODES].family;
+    const pg_family *f = &g.p->bonds.rows[PG_NODES].family;
     const double *x = g.p->cloud.x;
     for (size_t q = 0; q < g.p->cloud.n; q++)
         for (size_t e = f->start[q]; e < f->start[q + 1]; e++)
@@ -332,7 +333,7 @@ static void other_dimensions_have_no_paths (void **state)
     pg_changes cut = { 0 };
     check_ok (pg_state_create (&s, b.problem, 1));
     assert_null (s->paths);
-    assert_ptr_equal (pg_state_cracks (b.problem, s), &b.problem->cracks);
+    assert_ptr_equal (pg_state_cracks (b.problem, s), &b.problem->crack.given);
     const double from[2] = { 0, 0 }, to[2] = { 1, 0 };
     check_fails (pg_crack_start (s, b.problem, from, to, 0, &cut), PG_E_USAGE);
     check_fails (pg_crack_grow (s, b.problem, 0, (double[]) { 0, 0 }, 1, &cut), PG_E_USAGE);

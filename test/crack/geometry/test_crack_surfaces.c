@@ -165,11 +165,12 @@ static size_t check_severed (const growing *g, int axis, double at)
     const pg_problem *p = g->p;
     size_t severed = 0;
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++)
-            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
-                size_t j = 3 * (size_t) p->rows[set].family.node[e] + (size_t) axis;
-                if ((p->rows[set].x[3*q + (size_t) axis] < at) == (p->cloud.x[j] < at)) continue;
-                assert_false (g->s->alive[p->first_bond[set] + e]);
+        for (size_t q = 0; q < p->bonds.rows[set].n; q++)
+            for (size_t e = p->bonds.rows[set].family.start[q]; e < p->bonds.rows[set].family.start[q + 1];
+                 e++) {
+                size_t j = 3 * (size_t) p->bonds.rows[set].family.node[e] + (size_t) axis;
+                if ((p->bonds.rows[set].x[3*q + (size_t) axis] < at) == (p->cloud.x[j] < at)) continue;
+                assert_false (g->s->alive[p->bonds.first[set] + e]);
                 severed++;
             }
     return severed;

@@ -48,10 +48,10 @@ static void rims_of_discs (void **state)
                   "{disc: {center: [%.17g, 0, %.17g], normal: [1, 2, 2], radius: %.17g}}",
                   centre[0], centre[2], radius);
         built b = cube (unit, crack);
-        assert_int_equal (b.problem->nfront, 1);
+        assert_int_equal (b.problem->crack.nfront, 1);
         size_t n;
         const pg_front *f = pg_fronts_of_state (b.problem, NULL, &n);
-        assert_int_equal (n, 1), assert_ptr_equal (f, b.problem->front);
+        assert_int_equal (n, 1), assert_ptr_equal (f, b.problem->crack.front);
         assert_int_equal (f->closed, 1), assert_int_equal (f->open, 1), assert_int_equal (f->id, 1);
         /* a multiple of four of them, so that both sides of the disc are alike */
         assert_int_equal (f->n, 4 * lround (2 * pi * radius / (4 * 0.2 * unit)));
@@ -62,7 +62,7 @@ static void rims_of_discs (void **state)
             check_relative (dot (r, r), 1, 1e-9), check_relative (dot (r, f->ahead + 3*i), 1, 1e-9);
             check_absolute (dot (r, f->normal + 3*i), 0, 1e-9);
             check_relative (f->normal[3*i], 1.0 / 3, 1e-12);
-            check_relative (f->offset[i], b.problem->cracks.crack[0].retreat[0], 1e-12);
+            check_relative (f->offset[i], b.problem->crack.given.crack[0].retreat[0], 1e-12);
             assert_int_equal (f->meets[i], PG_MEETS_NOTHING);
         }
         unbuild (&b);
@@ -74,8 +74,8 @@ static void rims_that_leave_the_body (void **state)
 {
     (void) state;
     built b = cube (1, "{disc: {center: [-1, 0.1, 0.05], normal: [0, 0, 1], radius: 0.7}}");
-    assert_int_equal (b.problem->nfront, 1);
-    const pg_front *f = b.problem->front;
+    assert_int_equal (b.problem->crack.nfront, 1);
+    const pg_front *f = b.problem->crack.front;
     assert_int_equal (f->closed, 0), assert_int_equal (f->n, lround (0.7 * pi / 0.2) + 1);
     check_front (f, 0.2);
     for (size_t i = 0; i < f->n; i++) {
@@ -100,8 +100,8 @@ static void straight_fronts (void **state)
     for (int k = 0; k < 3; k++) {
         built b = cube (1, crack[k]);
         double side = k == 2 ? -1 : 1;
-        assert_int_equal (b.problem->nfront, 1);
-        const pg_front *f = b.problem->front;
+        assert_int_equal (b.problem->crack.nfront, 1);
+        const pg_front *f = b.problem->crack.front;
         assert_int_equal (f->closed, 0), assert_int_equal (f->n, 11);
         check_front (f, 0.2);
         for (size_t i = 0; i < f->n; i++) {
@@ -113,7 +113,7 @@ static void straight_fronts (void **state)
         unbuild (&b);
     }
     built b = cube (1, "{polygon: [[-2, -3, 0], [2, -3, 0], [2, 3, 0], [-2, 3, 0]]}");
-    assert_int_equal (b.problem->nfront, 0);           /* cuts the body in two */
+    assert_int_equal (b.problem->crack.nfront, 0);           /* cuts the body in two */
     unbuild (&b);
 }
 
@@ -132,8 +132,8 @@ static void corners_and_joints (void **state)
     for (int k = 0; k < 2; k++) {
         built b = cube (1, crack[k]);
         int corners = 0;
-        assert_int_equal (b.problem->nfront, 1);
-        const pg_front *f = b.problem->front;
+        assert_int_equal (b.problem->crack.nfront, 1);
+        const pg_front *f = b.problem->crack.front;
         assert_int_equal (f->closed, 1), assert_int_equal (f->n, 20);
         check_front (f, 0.2);
         for (size_t i = 0; i < f->n; i++) {
@@ -153,8 +153,8 @@ static void fronts_that_meet_cracks (void **state)
     (void) state;
     built b = cube (1, "{polygon: [[-2, -3, 0], [0.1, -3, 0], [0.1, 3, 0], [-2, 3, 0]]}, "
                        "{polygon: [[-0.5, -0.5, 0], [-0.5, 0.5, 0], [-0.5, 0.5, 0.4], [-0.5, -0.5, 0.4]]}");
-    assert_int_equal (b.problem->nfront, 2);
-    const pg_front *f = &b.problem->front[1];
+    assert_int_equal (b.problem->crack.nfront, 2);
+    const pg_front *f = &b.problem->crack.front[1];
     assert_int_equal (f->closed, 0), assert_int_equal (f->n, 10);
     assert_int_equal (f->meets[0], PG_MEETS_CRACK), assert_int_equal (f->meets[9], PG_MEETS_CRACK);
     check_front (f, 0.2);

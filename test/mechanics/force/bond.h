@@ -93,7 +93,7 @@ static inline double *linear_field (const bonded *b, const double *H)
 static inline pg_changes kill_some (bonded *b, size_t nth)
 {
     pg_changes c = { 0 };
-    const pg_family *f = &b->problem->rows[PG_NODES].family;
+    const pg_family *f = &b->problem->bonds.rows[PG_NODES].family;
     c.bond = pg_calloc (b->state->nbond, sizeof *c.bond);
     for (size_t i = 0; i < b->n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {

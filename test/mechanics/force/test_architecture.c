@@ -215,8 +215,8 @@ static void the_beam_bends_as_in_the_textbook (void **state)
                 is_the_closed_form (&r, by_springs ? 1e-6 : 1e-8);
                 check_relative (r.state->factor, 1, 1e-15);
                 assert_int_equal (pg_solver_report_now (r.solver)->steps, event ? 2 : 3);
-                if (s == 2) assert_true (pg_solver_report_now (r.solver)->cg_iterations > 0);
-                else assert_int_equal (pg_solver_report_now (r.solver)->cg_iterations, 0);
+                if (s == 2) assert_true (pg_solver_report_now (r.solver)->linear.cg_iterations > 0);
+                else assert_int_equal (pg_solver_report_now (r.solver)->linear.cg_iterations, 0);
                 clear (&r);
             }
 }
@@ -246,9 +246,9 @@ static void an_operator_alone_gives_the_same (void **state)
             check_scaled (b.state->d[i], a.state->d[i], 1e-8, fabs (deflection (1)));
         if (!by_springs) is_the_closed_form (&b, 1e-8);
         const pg_statistics *report = pg_solver_report_now (b.solver);
-        assert_true (report->cg_iterations > 10);
-        assert_int_equal (report->factorizations, 0);
-        assert_string_equal (report->solver, "cg");
+        assert_true (report->linear.cg_iterations > 10);
+        assert_int_equal (report->linear.factorizations, 0);
+        assert_string_equal (report->linear.solver, "cg");
         clear (&a), clear (&b);
     }
 }
@@ -267,7 +267,7 @@ static void dynamics_needs_no_matrix_either (void **state)
     }
     assert_int_equal (a.state->step, 50);
     assert_true (top > 0.01 * deflection (1));
-    assert_true (pg_solver_report_now (b.solver)->cg_iterations > 50);
+    assert_true (pg_solver_report_now (b.solver)->linear.cg_iterations > 50);
     clear (&a), clear (&b);
 }
 
@@ -309,7 +309,7 @@ static void missing_entries_are_not_missed (void **state)
             const pg_statistics *report = pg_solver_report (r.solver, r.state);
             assert_int_equal (report->broken, 0);
             assert_int_equal (report->nwarning, 0);
-            assert_true (report->energy_strain == 0 && report->energy_external == 0);
+            assert_true (report->energy.strain == 0 && report->energy.external == 0);
             assert_true (r.step.reaction && r.step.reaction[0] == 0);
             clear (&r);
         }

@@ -85,7 +85,7 @@ static void test_partial_assembly (void **unused)
                         *F = pg_force_matrix (fresh.force, fresh.self);
         assert_int_equal (K->start[b.ndof], F->start[b.ndof]);
         assert_memory_equal (K->value, F->value, (size_t) K->start[b.ndof] * sizeof *K->value);
-        const pg_family *f = &b.problem->rows[PG_NODES].family;
+        const pg_family *f = &b.problem->bonds.rows[PG_NODES].family;
         for (size_t n = 0; n < c.n; n++) {
             int set;
             size_t i, j = (size_t) f->node[c.bond[n]];
@@ -267,7 +267,7 @@ static void test_prescribed (void **unused)
                 assert_true (isnan (d[i]));
                 continue;
             }
-            double one = pg_load_value (&p->load[load], (int) (i % 2), 2, x, t);
+            double one = pg_load_value (&p->boundary.load[load], (int) (i % 2), 2, x, t);
             assert_memory_equal (&d[i], &one, sizeof one);
             assert_memory_equal (&out.displacement[pair], &one, sizeof one);
             pair++, prescribed += one != 0;

@@ -35,7 +35,7 @@ static double plain_energy (const bonded *b, size_t i, const double *u)
 {
     const pg_problem *p = b->problem;
     const pg_sum_rule *rule = &p->sums->rule;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     size_t m = f->start[i + 1] - f->start[i], dim = b->dim;
     double *xi = pg_calloc (m * dim + 1, sizeof *xi), *weight = pg_calloc (m + 1, sizeof *weight), W = 0;
     double unit = p->sums->calibration
@@ -61,7 +61,7 @@ static double plain_energy (const bonded *b, size_t i, const double *u)
 
 static double critical (const bonded *b, size_t i)
 {
-    if (b->problem->exempt[PG_NODES][i]) return INFINITY;
+    if (b->problem->bonds.exempt[PG_NODES][i]) return INFINITY;
     const pg_criterion *c = &b->problem->criterion[b->problem->block[PG_NODES][i]];
     return c->parameter[0] / pg_cloud_ratio (&b->problem->cloud, i);
 }
@@ -93,7 +93,7 @@ static void energies_are_plain_sums (void **unused)
         double *u = random_vector (b.ndof, 17), *share = pg_calloc (b.state->nbond, sizeof *share),
                *factor = pg_calloc (b.state->nbond, sizeof *factor), top = 0;
         char *kind = pg_calloc (b.state->nbond, 1);
-        const pg_family *f = &b.problem->rows[PG_NODES].family;
+        const pg_family *f = &b.problem->bonds.rows[PG_NODES].family;
         for (size_t i = 0; i < b.ndof; i++) u[i] *= 1e-5;
         check_ok (b.force->judge (b.self, b.state, u,
                                   &(pg_judging){ .utilisation = share, .kind = kind, .factor = factor }));
@@ -120,7 +120,7 @@ static void damage_is_that_of_points (void **unused)
     (void) unused;
     for (size_t k = 0; k < BODIES; k++) {
         bonded b = bonded_of (bodies[k]);
-        const pg_family *f = &b.problem->rows[PG_NODES].family;
+        const pg_family *f = &b.problem->bonds.rows[PG_NODES].family;
         unsigned char *lives = pg_calloc (b.n, 1);
         double *damage = pg_calloc (6 * b.n, sizeof *damage), *beta = pg_calloc (400, sizeof *beta),
                *d = pg_calloc (b.ndof, sizeof *d);
@@ -163,7 +163,7 @@ static size_t live_bonds (const bonded *b)
 /* The changes are exactly the live bonds of points at or over their limit, both directions, ascending. */
 static size_t check_changes (const bonded *b, const double *u, const pg_changes *c)
 {
-    const pg_family *f = &b->problem->rows[PG_NODES].family;
+    const pg_family *f = &b->problem->bonds.rows[PG_NODES].family;
     unsigned char *dies = pg_calloc (b->n, 1);
     size_t dying = 0, next = 0;
     for (size_t i = 0; i < b->n; i++) dying += dies[i] = plain_energy (b, i, u) >= critical (b, i);
@@ -256,7 +256,7 @@ static void exempt_points_and_materials (void **unused)
                           "sets: {grip: {where: 'x <= 0.3'}}\nfailure: {criterion: node_energy, wc_factor: "
                           "0.5, exclude: [grip]}\nmethod: {force: bond}\n");
     static const double Wc[] = { 0.5 * 2e-5 / 0.3015, 0.25 * 2e-5 / 0.3015 };
-    const pg_family *f = &b.problem->rows[PG_NODES].family;
+    const pg_family *f = &b.problem->bonds.rows[PG_NODES].family;
     double *u = pg_calloc (b.ndof, sizeof *u), *r = pg_calloc (b.ndof, sizeof *r);
     char text[300];
     pg_criterion_describe (&b.problem->criterion[1], text, sizeof text);

@@ -239,13 +239,13 @@ static void degenerate_points_are_left_out (void **state)
     (void) state;
     run r = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", one_rock, "gauss",
                       "linear", 2.0);
-    const pg_rows *rows = &r.problem->rows[PG_POINTS];
+    const pg_rows *rows = &r.problem->bonds.rows[PG_POINTS];
     size_t dead = 0;
     for (size_t p = 0; p < rows->n; p++) {
         if (rows->x[2 * p] > 2e-3) continue;
         dead++;
         for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++)
-            r.state->alive[r.problem->first_bond[PG_POINTS] + e] = 0;
+            r.state->alive[r.problem->bonds.first[PG_POINTS] + e] = 0;
     }
     pg_estimate e = estimate_of (&r, 0, 1, 1);
     assert_true (dead > 0);

@@ -32,8 +32,8 @@ static void what_is_exempt_never_breaks (void **unused)
         size_t near = 0, far = 0, crossing = 0;
         check_ok (b.force->judge (b.self, b.state, d, &(pg_judging){ .utilisation = u, .kind = kind }));
         for (int set = 0; set < PG_BOND_SETS; set++) {
-            const pg_rows *r = &b.problem->rows[set];
-            size_t base = b.problem->first_bond[set];
+            const pg_rows *r = &b.problem->bonds.rows[set];
+            size_t base = b.problem->bonds.first[set];
             for (size_t p = 0; p < r->n; p++)
                 for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
                     int own = r->x[2 * p] < 0.3,
@@ -56,7 +56,7 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
 {
     (void) unused;
     bonded b = plate (0.2, "integration: gauss", "failure: {criterion: stretch, critical_stretch: 1e-3}\n");
-    const pg_rows *r = &b.problem->rows[PG_NODES];
+    const pg_rows *r = &b.problem->bonds.rows[PG_NODES];
     double *d = pg_calloc (b.ndof, sizeof *d);
     size_t p = 0, first = 0;
     for (size_t i = 0; i < b.n; i++) if (hypot (r->x[2*i] - 0.45, r->x[2*i + 1] - 0.35) < 0.01) p = i;
@@ -64,10 +64,10 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
         if (fabs (r->x[2 * (size_t) r->family.node[e]] - r->x[2 * p] - 0.1) < 1e-6
             && fabs (r->x[2 * (size_t) r->family.node[e] + 1] - r->x[2 * p + 1]) < 1e-6)
             first = e;
-    b.state->alive[b.problem->first_bond[PG_NODES] + first] = 0;
+    b.state->alive[b.problem->bonds.first[PG_NODES] + first] = 0;
     size_t back = (size_t) r->family.node[first];
     for (size_t e = r->family.start[back]; e < r->family.start[back + 1]; e++)
-        if ((size_t) r->family.node[e] == p) b.state->alive[b.problem->first_bond[PG_NODES] + e] = 0;
+        if ((size_t) r->family.node[e] == p) b.state->alive[b.problem->bonds.first[PG_NODES] + e] = 0;
     for (size_t i = 0; i < b.n; i++) d[2*i] = -1e-3 * r->x[2*i];
     check_ok (b.force->refresh (b.self, b.state, NULL));
     check_absolute (overlap_of (&b, d) / 1e-4, 0, 1e-9);
@@ -79,7 +79,7 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
     b = plate (0.2, "integration: gauss",
                "cracks: [{from: [0.5, -0.1], to: [0.5, 0.8]}]\nfailure: {criterion: stretch, "
                "critical_stretch: 1e-3}\n");
-    r = &b.problem->rows[PG_NODES];
+    r = &b.problem->bonds.rows[PG_NODES];
     d = pg_calloc (b.ndof, sizeof *d);
     for (size_t i = 0; i < b.n; i++) d[2*i] = r->x[2*i] > 0.5 ? -2e-3 : 0;
     check_relative (overlap_of (&b, d), 2e-3, 1e-9);
@@ -134,15 +134,15 @@ static void a_broken_bond_opens_its_cell_and_those_beside (void **unused)
     bonded b = plate (0.2, "integration: consistent",
                       "failure: {criterion: stretch, critical_stretch: 1e-3}\n");
     const galerkin *g = b.self;
-    const pg_consistency *c = b.problem->consistency;
+    const pg_consistency *c = b.problem->form.consistency;
     const pg_faces *f = &c->faces;
-    const pg_rows *r = &b.problem->rows[PG_POINTS];
+    const pg_rows *r = &b.problem->bonds.rows[PG_POINTS];
     size_t ncell = 0, cell = 0, open = 0, bond[1];
     assert_non_null (g->whole);
     while (c->first[ncell] < r->n) ncell++;
     cell = ncell / 2;
     for (size_t k = 0; k < ncell; k++) assert_int_equal (g->whole[k], 1);
-    bond[0] = b.problem->first_bond[PG_POINTS] + r->family.start[c->first[cell]];
+    bond[0] = b.problem->bonds.first[PG_POINTS] + r->family.start[c->first[cell]];
     b.state->alive[bond[0]] = 0;
     check_ok (b.force->refresh (b.self, b.state, &(pg_changes) { .n = 1, .cap = 1, .bond = bond }));
     for (size_t k = 0; k < ncell; k++) {

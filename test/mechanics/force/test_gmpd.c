@@ -158,7 +158,7 @@ static void test_limit_is_bond (void **unused)
 static double cut_energy (const bonded *b, int axis, int mode)
 {
     const pg_problem *p = b->problem;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     const double *limit = p->criterion->parameter, *x = p->cloud.x;
     double E = p->material->modulus, nu = p->material->nu, axial, shear, sum = 0, h = p->cloud.h;
     pg_beam_sums sums;
@@ -413,8 +413,8 @@ static void test_moment (void **unused)
     to_the_end (&r);
     check_relative (r.step.reaction[6], 2e-3, 1e-12);
     const pg_statistics *report = pg_solver_report_now (r.solver);
-    check_relative (report->energy_strain, report->energy_external, 1e-10);
-    assert_true (report->energy_strain > 0);
+    check_relative (report->energy.strain, report->energy.external, 1e-10);
+    assert_true (report->energy.strain > 0);
     /* about the origin: what the supports do, what the load does */
     void *self;
     const pg_force_type *force = pg_solver_force (r.solver, &self);
@@ -451,8 +451,8 @@ static void test_free_motion (void **unused)
         r = prepare (1, text);
         to_the_end (&r);
         const pg_statistics *report = pg_solver_report_now (r.solver);
-        check_relative (report->energy_strain + report->energy_kinetic, report->energy_external, 2e-2);
-        assert_true (report->energy_strain > 0.05 * report->energy_kinetic);
+        check_relative (report->energy.strain + report->energy.kinetic, report->energy.external, 2e-2);
+        assert_true (report->energy.strain > 0.05 * report->energy.kinetic);
         clear (&r);
     }
 }

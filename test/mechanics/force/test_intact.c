@@ -64,12 +64,12 @@ static void kept_rows_give_the_same_bits (void **unused)
         bonded b = built (k);                          /* its force was made before the patch test */
         void *kept = NULL;
         double *d = random_vector (b.ndof, 3);
-        assert_null (b.problem->intact);
+        assert_null (b.problem->quality.intact);
         check_ok (pg_patch_probe (b.problem));
-        assert_non_null (b.problem->intact);
-        const pg_rows *r = &b.problem->intact->rows[PG_NODES];
-        size_t bonds = kept_bonds (r, &b.problem->rows[PG_NODES].family);
-        double *before = pg_calloc (bonds, sizeof *before), *wide = b.problem->intact->sums.dN;
+        assert_non_null (b.problem->quality.intact);
+        const pg_rows *r = &b.problem->quality.intact->rows[PG_NODES];
+        size_t bonds = kept_bonds (r, &b.problem->bonds.rows[PG_NODES].family);
+        double *before = pg_calloc (bonds, sizeof *before), *wide = b.problem->quality.intact->sums.dN;
         memcpy (before, r->N, bonds * sizeof *before);
         check_ok (b.force->create (&kept, b.problem));
         check_ok (b.force->refresh (kept, b.state, NULL));
@@ -77,8 +77,8 @@ static void kept_rows_give_the_same_bits (void **unused)
         /* every seventh bond of the first points, of all sets that have any */
         size_t dead[3 * 60], n = 0;
         for (int s = 0; s < PG_BOND_SETS; s++)
-            for (size_t e = b.problem->first_bond[s];
-                 e < b.problem->first_bond[s + 1] && e < b.problem->first_bond[s] + 350; e += 7)
+            for (size_t e = b.problem->bonds.first[s];
+                 e < b.problem->bonds.first[s + 1] && e < b.problem->bonds.first[s] + 350; e += 7)
                 dead[n++] = e, b.state->alive[e] = 0;
         pg_changes changes = { .n = n, .bond = dead };
         double first = wide ? wide[0] : 0;
@@ -125,14 +125,14 @@ static void kept_stiffness_gives_the_same_bits (void **unused)
         bonded b = bonded_of (of[k]);
         void *first = NULL, *later = NULL;
         check_ok (pg_patch_probe (b.problem));
-        assert_non_null (b.problem->intact);
-        assert_non_null (b.problem->intact->K);
+        assert_non_null (b.problem->quality.intact);
+        assert_non_null (b.problem->quality.intact->K);
         check_ok (b.force->create (&first, b.problem));
         check_ok (b.force->refresh (first, b.state, NULL));
         check_ok (b.force->create (&later, b.problem));
         check_ok (b.force->refresh (later, b.state, NULL));
         same_matrix (&b, first, b.self);
-        assert_null (b.problem->intact->K);
+        assert_null (b.problem->quality.intact->K);
         same_matrix (&b, later, b.self);
         size_t dead[60], n = 0;
         for (size_t e = 0; e < 350; e += 7) dead[n++] = e, b.state->alive[e] = 0;
@@ -156,14 +156,14 @@ static void stiffness_of_another_body_is_not_kept (void **unused)
         "blocks: [{material: rock, where: 'x <= 0.5'}, {material: clay, where: 'x > 0.5'}]\n"
         "method: {integration: consistent}\n" HELD);
     check_ok (pg_patch_probe (b.problem));
-    assert_non_null (b.problem->intact);
-    assert_null (b.problem->intact->K);
+    assert_non_null (b.problem->quality.intact);
+    assert_null (b.problem->quality.intact->K);
     unbonded (&b);
     b = bonded_of (BODY2 "method: {integration: consistent}\n" HELD);
     void *late = NULL;
     check_ok (pg_patch_probe (b.problem));
-    assert_non_null (b.problem->intact->K);
-    for (int s = 0; s < PG_BOND_SETS; s++) b.state->alive[b.problem->first_bond[s]] = 0;
+    assert_non_null (b.problem->quality.intact->K);
+    for (int s = 0; s < PG_BOND_SETS; s++) b.state->alive[b.problem->bonds.first[s]] = 0;
     check_ok (b.force->refresh (b.self, b.state, NULL));
     check_ok (b.force->create (&late, b.problem));
     check_ok (b.force->refresh (late, b.state, NULL));
@@ -184,7 +184,7 @@ static void kept_only_where_nothing_breaks (void **unused)
     for (size_t k = 0; k < sizeof not / sizeof *not; k++) {
         bonded b = bonded_of (not[k]);
         check_ok (pg_patch_probe (b.problem));
-        assert_null (b.problem->intact);
+        assert_null (b.problem->quality.intact);
         unbonded (&b);
     }
 }
@@ -195,7 +195,7 @@ static void memory_that_ends_harms_nothing (void **unused)
     (void) unused;
     bonded b = built (2);
     check_ok (pg_patch_probe (b.problem));
-    b.state->alive[0] = b.state->alive[b.problem->first_bond[PG_POINTS]] = 0;
+    b.state->alive[0] = b.state->alive[b.problem->bonds.first[PG_POINTS]] = 0;
     for (size_t k = 1, failed = 1; failed; k++) {
         void *kept = NULL;
         check_ok (b.force->create (&kept, b.problem));

@@ -61,9 +61,9 @@ static void check_means (const scene *a, int mohr_coulomb)
     double *node = principals (&b, d, b.n, p->cloud.x);
     size_t sets = 0, apart = 0;
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_rows *r = &p->rows[set];
+        const pg_rows *r = &p->bonds.rows[set];
         /* consistent strains of cells: not those of any place */
-        if (r->n == 0 || (p->consistency && set != PG_NODES)) continue;
+        if (r->n == 0 || (p->form.consistency && set != PG_NODES)) continue;
         double *point = principals (&b, d, r->n, r->x);
         sets++;
         for (size_t i = 0; i < r->n; i++)
@@ -72,9 +72,9 @@ static void check_means (const scene *a, int mohr_coulomb)
                 if ((int) j == r->own[i]) continue;
                 double want = use_of (mohr_coulomb, (point[2 * i] + node[2 * j]) / 2,
                                       (point[2 * i + 1] + node[2 * j + 1]) / 2),
-                       found = u[p->first_bond[set] + e];
+                       found = u[p->bonds.first[set] + e];
                 check_scaled (found, want, 1e-9, 1);
-                if (found > 1e-6) check_relative (f[p->first_bond[set] + e] * found, 1, 1e-12);
+                if (found > 1e-6) check_relative (f[p->bonds.first[set] + e] * found, 1, 1e-12);
                 apart += fabs (use_of (mohr_coulomb, point[2 * i], point[2 * i + 1]) - want) > 0.02 * want
                          && fabs (use_of (mohr_coulomb, node[2 * j], node[2 * j + 1]) - want) > 0.02 * want;
             }
@@ -113,9 +113,9 @@ static void dead_bonds_have_no_utilisation (void **unused)
         char *kind = pg_calloc (n, 1);
         for (size_t i = 0; i < n; i++) b.state->alive[i] = i % 3 > 0, u[i] = f[i] = 7;
         for (size_t i = 0; b.problem->sums && i < b.n; i++)                 /* both directions of a bond */
-            for (size_t e = b.problem->rows[PG_NODES].family.start[i];
-                 e < b.problem->rows[PG_NODES].family.start[i + 1]; e++)
-                b.state->alive[e] = (i + (size_t) b.problem->rows[PG_NODES].family.node[e]) % 3 > 0;
+            for (size_t e = b.problem->bonds.rows[PG_NODES].family.start[i];
+                 e < b.problem->bonds.rows[PG_NODES].family.start[i + 1]; e++)
+                b.state->alive[e] = (i + (size_t) b.problem->bonds.rows[PG_NODES].family.node[e]) % 3 > 0;
         check_ok (b.force->refresh (b.self, b.state, NULL));
         check_ok (b.force->judge (b.self, b.state, d,
                                   &(pg_judging){ .utilisation = u, .kind = kind, .factor = f }));
@@ -190,7 +190,7 @@ static void check_twins (int dim, const char *method, const char *failure)
     unlink (path);
     assert_non_null (b.problem->cloud.size);
     assert_int_equal (b.n, 2 * n);
-    const pg_family *family = &b.problem->rows[PG_NODES].family;
+    const pg_family *family = &b.problem->bonds.rows[PG_NODES].family;
     double *d = random_vector (b.ndof, 17), *u = pg_calloc (b.state->nbond, sizeof *u),
            *f = pg_calloc (b.state->nbond, sizeof *f), top = 0;
     for (size_t i = 0; i < n; i++)                     /* twice the displacement, the same rotation */

@@ -97,7 +97,7 @@ static double strained (bonded *b, const double *H, double *worst_stress)
     for (size_t i = 0; i < b->n; i++)
         pg_state_moduli (rule.mode, m->modulus, m->nu, &dilation[i], &deviation[i]);
     pg_bond_loop_setting setting = { .sums = b->problem->sums,
-                                     .family = &b->problem->rows[PG_NODES].family,
+                                     .family = &b->problem->bonds.rows[PG_NODES].family,
                                      .dilation = dilation,
                                      .deviation = deviation,
                                      .threads = 1 };
@@ -242,7 +242,7 @@ static void test_waves (void **unused)
 /* Leaves one bond in `nth`. */
 static void thin_out (bonded *b, size_t nth)
 {
-    const pg_family *f = &b->problem->rows[PG_NODES].family;
+    const pg_family *f = &b->problem->bonds.rows[PG_NODES].family;
     for (size_t i = 0; i < b->n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e], low = i < j ? i : j, high = i < j ? j : i;
@@ -291,7 +291,7 @@ static void test_bound_of_volumes_that_follow (void **unused)
                       "failure: {criterion: stretch, critical_stretch: 1}\n",
                       body[w]);
             bonded b = bonded_of (text);
-            const pg_family *f = &b.problem->rows[PG_NODES].family;
+            const pg_family *f = &b.problem->bonds.rows[PG_NODES].family;
             double omega, dilation, deviation, h = b.problem->cloud.h;
             size_t centre = 0;
             while (f->start[centre + 1] - f->start[centre] < 2 * b.dim) centre++;

@@ -132,8 +132,8 @@ static double energy_of_turn (int dim, const char *method, double spacing, const
                       held, dim == 3 ? ", z: 0.003" : "");
     to_the_end (&r);
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
-    double energy = s->energy_strain / (0.5 * 1e-6);
-    *few = (double) s->degenerate_points / (double) r.problem->rows[PG_POINTS].n;
+    double energy = s->energy.strain / (0.5 * 1e-6);
+    *few = (double) s->degenerate_points / (double) r.problem->bonds.rows[PG_POINTS].n;
     if (energy > 1e-12)
         print_message ("  %dD %s: %.1e at spacing %g, %scracks: %s held: %s\n", dim, method, energy, spacing,
                        lattice, cracks, held);

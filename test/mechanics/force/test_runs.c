@@ -129,7 +129,7 @@ static void the_share_of_points_is_what_changes (void **state)
         run r = body_of (1, 1, m, "");
         void *self;
         const pg_force_type *force = pg_solver_force (r.solver, &self);
-        size_t n = r.state->ndof, known = 0, base = r.problem->first_bond[m == 2 ? PG_NODES : PG_POINTS];
+        size_t n = r.state->ndof, known = 0, base = r.problem->bonds.first[m == 2 ? PG_NODES : PG_POINTS];
         double *x = pg_calloc (5 * n, sizeof *x), *y = x + n, *z = y + n, *before = z + n,
                *after = before + n;
         for (size_t i = 0; i < n; i++) x[i] = random_number ();
@@ -175,8 +175,8 @@ static void points_become_alike_by_breaking (void **state)
     double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n;
     refresh (&r, NULL);
     for (size_t i = 0; i < n; i++) x[i] = random_number ();
-    const pg_family *f = &r.problem->rows[PG_POINTS].family;
-    size_t base = r.problem->first_bond[PG_POINTS];
+    const pg_family *f = &r.problem->bonds.rows[PG_POINTS].family;
+    size_t base = r.problem->bonds.first[PG_POINTS];
     for (size_t k = 0; k < TRAINS; k++) {
         first[k] = last[k] = (size_t) ((0.5 + 0.5 * random_number ()) * (double) (f->n - 1));
         number[k] = (size_t) ((0.5 + 0.5 * random_number ()) * 9);

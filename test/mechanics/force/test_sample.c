@@ -176,11 +176,13 @@ static void halves_that_have_parted_move_apart (void **state)
         choose (&r, 0, x);
         sample (&r, d, x, out);                        /* what is kept of the whole body is of no use later */
         for (int set = 0; set < PG_BOND_SETS; set++)
-            for (size_t q = 0; q < p->rows[set].n; q++)
-                for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
-                    double a = p->rows[set].x[2*q], b = p->cloud.x[2 * (size_t) p->rows[set].family.node[e]];
+            for (size_t q = 0; q < p->bonds.rows[set].n; q++)
+                for (size_t e = p->bonds.rows[set].family.start[q];
+                     e < p->bonds.rows[set].family.start[q + 1]; e++) {
+                    double a = p->bonds.rows[set].x[2 * q],
+                           b = p->cloud.x[2 * (size_t) p->bonds.rows[set].family.node[e]];
                     if ((a - line) * (b - line) >= 0) continue;
-                    r.state->alive[p->first_bond[set] + e] = 0, broken++;
+                    r.state->alive[p->bonds.first[set] + e] = 0, broken++;
                 }
         assert_true (broken > 50);
         for (size_t i = 0; i < p->cloud.n; i++) d[2*i] = p->cloud.x[2*i] > line ? 1 : 0;

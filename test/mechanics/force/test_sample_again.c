@@ -63,13 +63,13 @@ static void lose (run *r, pg_changes *changes)
 /* Some live bonds of the evaluation points within 0.15 m of a place. */
 static void break_near (run *r, double at_x, double at_y)
 {
-    const pg_rows *rows = &r->problem->rows[PG_POINTS];
+    const pg_rows *rows = &r->problem->bonds.rows[PG_POINTS];
     pg_changes changes = { 0 };
     size_t bond[40];
     changes.bond = bond;
     for (size_t q = 0; q < rows->n && changes.n < 30; q++)
         for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1] && changes.n < 30; e += 3) {
-            size_t b = r->problem->first_bond[PG_POINTS] + e;
+            size_t b = r->problem->bonds.first[PG_POINTS] + e;
             if (hypot (rows->x[2*q] - at_x, rows->x[2*q + 1] - at_y) < 0.15 && r->state->alive[b])
                 bond[changes.n++] = b;
         }

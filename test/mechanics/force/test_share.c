@@ -71,7 +71,7 @@ static void rows_are_those_of_points_alone (void **state)
         check_below ((double) most, 0.8 * (double) bulk->family.start[bulk->n]);
         same_rows (a, b);
         /* the last point of evaluation loses a bond: it gets a row that nobody else reads */
-        size_t bond = r.problem->first_bond[a->bulk + 1] - 1;
+        size_t bond = r.problem->bonds.first[a->bulk + 1] - 1;
         r.state->alive[bond] = own.state->alive[bond] = 0;
         pg_changes changes = { 1, 1, &bond };
         refresh (&r, &changes), refresh (&own, &changes);
@@ -120,7 +120,7 @@ static void rows_stay_what_they_are_by_themselves (void **state)
         refresh (&r, NULL), refresh (&own, NULL);
         galerkin *a = force_of (&r), *b = force_of (&own);
         const pg_rows *bulk = &a->rows[a->bulk];
-        size_t base = r.problem->first_bond[a->bulk], n = r.state->ndof;
+        size_t base = r.problem->bonds.first[a->bulk], n = r.state->ndof;
         double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n, top = 0;
         for (size_t i = 0; i < n; i++) x[i] = sin (12.9898 * (double) i);
         for (size_t round = 0; round < 40; round++) {
@@ -160,7 +160,7 @@ static void memory_that_ends_is_told (void **state)
 {
     (void) state;
     run own = scene_of (1, "%s", sharing[3]);
-    size_t bond = own.problem->first_bond[PG_POINTS] + 100;
+    size_t bond = own.problem->bonds.first[PG_POINTS] + 100;
     own.problem->plain = 1, own.state->alive[bond] = 0;
     refresh (&own, NULL);
     for (int parted = 0; parted <= 1; parted++)

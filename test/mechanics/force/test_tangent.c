@@ -167,8 +167,8 @@ static void a_partial_update_equals_a_fresh_one (void **state)
             refresh (&part, NULL);
             /* some bonds anywhere; then a single one of each set */
             for (int round = 0; round < 6; round++) {
-                size_t bond[64], n = 0, first = round < 3 ? 0 : part.problem->first_bond[round - 3];
-                size_t last = round < 3 ? part.state->nbond : part.problem->first_bond[round - 2],
+                size_t bond[64], n = 0, first = round < 3 ? 0 : part.problem->bonds.first[round - 3];
+                size_t last = round < 3 ? part.state->nbond : part.problem->bonds.first[round - 2],
                        most = round < 3 ? 64 : 1;
                 for (size_t i = first; i < last && n < most; i++)
                     if (part.state->alive[i] && 0.5 + 0.5 * random_number () < 0.001 * (double) (1 + round))
@@ -201,9 +201,9 @@ static void kill_near_the_middle (run *r, pg_changes *dead)
     const pg_problem *p = r->problem;
     dead->n = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        size_t n = p->rows[s].n, last = n / 2 + 3 < n ? n / 2 + 3 : n;
-        for (size_t e = p->rows[s].family.start[n / 2]; e < p->rows[s].family.start[last]; e++) {
-            size_t bond = p->first_bond[s] + e;
+        size_t n = p->bonds.rows[s].n, last = n / 2 + 3 < n ? n / 2 + 3 : n;
+        for (size_t e = p->bonds.rows[s].family.start[n / 2]; e < p->bonds.rows[s].family.start[last]; e++) {
+            size_t bond = p->bonds.first[s] + e;
             if (e % 3 || !r->state->alive[bond]) continue;
             r->state->alive[bond] = 0;
             dead->bond[dead->n++] = bond;

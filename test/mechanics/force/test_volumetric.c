@@ -240,7 +240,7 @@ static pg_bond_loop *sweep_of (const bonded *b, double **room)
     }
     law = (pg_beam_law) { .shear = c + b->n, .bending = c + 2 * b->n, .length = p->cloud.h };
     pg_bond_loop_setting s = { .sums = p->sums,
-                               .family = &p->rows[PG_NODES].family,
+                               .family = &p->bonds.rows[PG_NODES].family,
                                .modulus = c,
                                .dilation = c + 3 * b->n,
                                .deviation = c + 4 * b->n,
@@ -363,7 +363,7 @@ static void test_nothing_left (void **unused)
 static double cut_energy (const bonded *b, int axis, double s)
 {
     const pg_problem *p = b->problem;
-    const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_family *f = &p->bonds.rows[PG_NODES].family;
     const double *x = p->cloud.x, h = p->cloud.h;
     double E, nu, A, axial, shear, sum = 0, weight[400], *all = pg_calloc (400 * 3, sizeof *all),
                                    *q = pg_calloc (b->n, sizeof *q), *room;
@@ -477,7 +477,7 @@ static void test_bound (void **unused)
         check_ok (b.force->motion.bound (b.self, &omega));
         check_below (top, omega);
         for (size_t nth = 2; nth < 40; nth *= 2) {
-            const pg_family *f = &b.problem->rows[PG_NODES].family;
+            const pg_family *f = &b.problem->bonds.rows[PG_NODES].family;
             for (size_t i = 0; i < b.n; i++)
                 for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
                     size_t j = (size_t) f->node[e], low = i < j ? i : j, high = i < j ? j : i;
@@ -542,7 +542,8 @@ static void test_patch (void **unused)
             check_scaled (d[m - 1], -2.5e-4 * r.problem->cloud.h, 10 * tolerance, size);
             if (dim == 3) check_scaled (d[2], -3e-3 * x[2], tolerance, size);
         }
-        if (k == 0 || k == 3) check_below ((double) pg_solver_report_now (r.solver)->cg_iterations, 30);
+        if (k == 0 || k == 3)
+            check_below ((double) pg_solver_report_now (r.solver)->linear.cg_iterations, 30);
         clear (&r);
     }
 }

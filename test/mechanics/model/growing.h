@@ -46,15 +46,16 @@ static inline size_t check_mask (const growing *g, size_t few)
     size_t dim = (size_t) p->cloud.dim, dead = 0;
     pg_cracks plain = { .dim = p->cloud.dim, .crack = cracks->crack, .n = cracks->n };
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++)
-            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
-                int j = p->rows[set].family.node[e];
-                const double *x = p->rows[set].x + dim * q, *y = p->cloud.x + dim * (size_t) j;
-                if (j == p->rows[set].own[q]) continue;
+        for (size_t q = 0; q < p->bonds.rows[set].n; q++)
+            for (size_t e = p->bonds.rows[set].family.start[q]; e < p->bonds.rows[set].family.start[q + 1];
+                 e++) {
+                int j = p->bonds.rows[set].family.node[e];
+                const double *x = p->bonds.rows[set].x + dim * q, *y = p->cloud.x + dim * (size_t) j;
+                if (j == p->bonds.rows[set].own[q]) continue;
                 int cut = pg_cracks_cut (cracks, x, y, 1e-9 * p->cloud.h) != NULL;
                 if (e % few == 0)
                     assert_int_equal (cut, pg_cracks_cut (&plain, x, y, 1e-9 * p->cloud.h) != NULL);
-                assert_int_equal (g->s->alive[p->first_bond[set] + e], !cut);
+                assert_int_equal (g->s->alive[p->bonds.first[set] + e], !cut);
                 dead += (size_t) cut;
             }
     return dead;

@@ -21,8 +21,9 @@ static void one_material_needs_no_blocks (void **state)
     (void) state;
     built b = build (PLATE PULL);
     for (int s = 0; s < PG_BOND_SETS; s++) {
-        assert_true (b.problem->rows[s].n > 0);
-        for (size_t q = 0; q < b.problem->rows[s].n; q++) assert_int_equal (made_of (b.problem, s, q), 0);
+        assert_true (b.problem->bonds.rows[s].n > 0);
+        for (size_t q = 0; q < b.problem->bonds.rows[s].n; q++)
+            assert_int_equal (made_of (b.problem, s, q), 0);
     }
     unbuild (&b);
 }
@@ -34,8 +35,8 @@ static void a_condition_holds_at_the_point_itself (void **state)
                      "blocks: [{material: clay, where: x < 0.5}, {material: rock, where: x >= 0.5}]\n");
     const pg_problem *p = b.problem;
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++)
-            assert_int_equal (made_of (p, s, q), p->rows[s].x[2 * q] < 0.5 ? CLAY_ : ROCK_);
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++)
+            assert_int_equal (made_of (p, s, q), p->bonds.rows[s].x[2 * q] < 0.5 ? CLAY_ : ROCK_);
     unbuild (&b);
 }
 
@@ -47,8 +48,8 @@ static void points_next_to_an_interface_do_not_follow_its_nodes (void **state)
     built b = build (TWO "blocks: [{material: clay, where: x < 0.5}, {material: rock, where: x >= 0.5}]\n");
     const pg_problem *p = b.problem;
     size_t beside = 0;
-    for (size_t q = 0; q < p->rows[PG_POINTS].n; q++) {
-        double x = p->rows[PG_POINTS].x[2*q];
+    for (size_t q = 0; q < p->bonds.rows[PG_POINTS].n; q++) {
+        double x = p->bonds.rows[PG_POINTS].x[2*q];
         if (x < 0.45 || x > 0.5) continue;
         assert_int_equal (made_of (p, PG_POINTS, q), CLAY_);
         beside += 0.5 - x < 0.03;
@@ -79,8 +80,8 @@ static void a_boundary_point_is_made_of_what_lies_behind_it (void **state)
              "blocks: [{material: rock, where: y < 0.2}, {material: clay, where: y > 0.2 and y < 0.5}]\n");
     const pg_problem *p = b.problem;
     size_t top = 0;
-    for (size_t q = 0; q < p->rows[PG_FACETS].n; q++) {
-        double y = p->rows[PG_FACETS].x[2*q + 1];
+    for (size_t q = 0; q < p->bonds.rows[PG_FACETS].n; q++) {
+        double y = p->bonds.rows[PG_FACETS].x[2*q + 1];
         assert_int_equal (made_of (p, PG_FACETS, q), y > 0.2 ? CLAY_ : ROCK_);
         top += y > 0.499;
     }
@@ -225,9 +226,9 @@ static void what_never_breaks_is_exempt (void **state)
     const pg_problem *p = b.problem;
     assert_true (!p->criterion[ROCK_].never && p->criterion[CLAY_].never);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++) {
-            double x = p->rows[s].x[2*q];
-            assert_int_equal (p->exempt[s][q], x < 0.5 || x > (s == PG_NODES ? 0.99 : 0.95));
+        for (size_t q = 0; q < p->bonds.rows[s].n; q++) {
+            double x = p->bonds.rows[s].x[2*q];
+            assert_int_equal (p->bonds.exempt[s][q], x < 0.5 || x > (s == PG_NODES ? 0.99 : 0.95));
         }
     unbuild (&b);
 }

@@ -23,7 +23,7 @@ static void a_free_body_flies_on (void **state)
             check_relative (r.state->d[2*i], 15e-6, 1e-9);
             check_relative (r.state->d[2*i + 1], -20e-6, 1e-9);
         }
-        check_relative (pg_solver_report_now (r.solver)->energy_kinetic, 0.5 * 2500 * 80e-9 * 25, 1e-9);
+        check_relative (pg_solver_report_now (r.solver)->energy.kinetic, 0.5 * 2500 * 80e-9 * 25, 1e-9);
         clear (&r);
     }
 }
@@ -41,8 +41,8 @@ static void each_point_has_its_own_velocity (void **state)
     r = scene_of (1, PLATE "method: {force: bond}\nboundary: [{set: left, displacement: {x: 0, y: "
                            "0}}]\ninitial: {velocity: {y: 1}}\nsolver: {kind: static, steps: 2}\n");
     int noted = 0;
-    for (size_t k = 0; k < r.problem->nnote; k++)
-        noted |= strstr (r.problem->note[k], "ignored with solver: static: initial") != NULL;
+    for (size_t k = 0; k < r.problem->notes.n; k++)
+        noted |= strstr (r.problem->notes.text[k], "ignored with solver: static: initial") != NULL;
     assert_true (noted);
     assert_true (largest_of (r.state->v, r.state->ndof) == 0);
     clear (&r);
@@ -67,8 +67,8 @@ static void a_spinning_body_is_at_rest_in_itself (void **state)
                           dim == 2 ? "" : " + 100 / s * z, z: -100 / s * y", kinds[k % 3]);
         to_the_end (&r);
         const pg_statistics *p = pg_solver_report_now (r.solver);
-        assert_true (p->energy_kinetic > 0);
-        check_below (p->energy_strain, (k % 3 == 2 ? 1e-12 : 1e-18) * p->energy_kinetic);
+        assert_true (p->energy.kinetic > 0);
+        check_below (p->energy.strain, (k % 3 == 2 ? 1e-12 : 1e-18) * p->energy.kinetic);
         size_t m = (size_t) (pg_problem_unknowns (r.problem));
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
             const double *own = r.state->d + i * m;

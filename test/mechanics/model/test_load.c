@@ -11,7 +11,7 @@ static double value (const char *load, const char *rest, int k, double t)
     char text[1000];
     snprintf (text, sizeof text, PLATE "boundary: [{set: right, %s}]\n%s", load, rest);
     built b = build (text);
-    const pg_load *l = &b.problem->load[0];
+    const pg_load *l = &b.problem->boundary.load[0];
     double v = pg_load_value (l, k, 2, here, t);
     if (l->over_area > 0) v *= l->over_area;           /* a total force on a side is a traction there */
     unbuild (&b);
@@ -133,14 +133,14 @@ static void the_way_of_prescribing_follows_the_method (void **state)
         snprintf (text, sizeof text, PLATE "boundary: [{set: right, displacement: {x: 1}}]\n%s",
                   cases[i].rest);
         built b = build (text);
-        assert_int_equal (b.problem->load[0].essential, cases[i].how);
+        assert_int_equal (b.problem->boundary.load[0].essential, cases[i].how);
         unbuild (&b);
     }
     built b = build (
         PLATE
         "sets: {mid: {where: \"abs(x - 0.5) < 0.01\"}}\nboundary: [{set: mid, displacement: {x: 1}}]\n");
     /* points inside have no facet */
-    assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_TRANSFORMATION);
+    assert_int_equal (b.problem->boundary.load[0].essential, PG_ESSENTIAL_TRANSFORMATION);
     unbuild (&b);
 }
 
@@ -149,8 +149,8 @@ static void an_entry_may_choose_its_own_way (void **state)
     (void) state;
     built b = build (PLATE "method: {essential: nitsche}\nboundary: [{set: right, displacement: {x: 1}, "
                            "essential: penalty}, {set: left, displacement: {x: 0}}]\n");
-    assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_PENALTY);
-    assert_int_equal (b.problem->load[1].essential, PG_ESSENTIAL_NITSCHE);
+    assert_int_equal (b.problem->boundary.load[0].essential, PG_ESSENTIAL_PENALTY);
+    assert_int_equal (b.problem->boundary.load[1].essential, PG_ESSENTIAL_NITSCHE);
     unbuild (&b);
     check_refused (PLATE "boundary: [{set: right, displacement: {x: 1}, essential: penalti}]\n",
                    "boundary[0].essential");

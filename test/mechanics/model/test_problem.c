@@ -10,15 +10,18 @@ static void bond_sets_are_numbered_through (void **state)
     built b = build (PLATE "boundary: [{set: right, displacement: {x: 1}}]\n");
     const pg_problem *p = b.problem;
     assert_int_equal (p->cloud.n, 11 * 6);
-    assert_int_equal (p->rows[PG_NODES].n, p->cloud.n);
-    assert_int_equal (p->rows[PG_POINTS].n, 10 * 5 * 4);
-    assert_int_equal (p->rows[PG_FACETS].n, 5 * 2);    /* only the facets of the support */
-    assert_int_equal (p->first_bond[0], 0);
+    assert_int_equal (p->bonds.rows[PG_NODES].n, p->cloud.n);
+    assert_int_equal (p->bonds.rows[PG_POINTS].n, 10 * 5 * 4);
+    assert_int_equal (p->bonds.rows[PG_FACETS].n, 5 * 2);    /* only the facets of the support */
+    assert_int_equal (p->bonds.first[0], 0);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        assert_int_equal (p->first_bond[s + 1] - p->first_bond[s], p->rows[s].family.start[p->rows[s].n]);
+        assert_int_equal (p->bonds.first[s + 1] - p->bonds.first[s],
+                          p->bonds.rows[s].family.start[p->bonds.rows[s].n]);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        assert_true (!p->rows[s].N && !p->rows[s].dN && !p->rows[s].w && !p->rows[s].grade);
-    for (size_t i = 0; i < p->rows[PG_FACETS].n; i++) check_relative (p->rows[PG_FACETS].x[2*i], 1, 1e-14);
+        assert_true (!p->bonds.rows[s].N && !p->bonds.rows[s].dN && !p->bonds.rows[s].w
+                     && !p->bonds.rows[s].grade);
+    for (size_t i = 0; i < p->bonds.rows[PG_FACETS].n; i++)
+        check_relative (p->bonds.rows[PG_FACETS].x[2 * i], 1, 1e-14);
     unbuild (&b);
 }
 
@@ -28,7 +31,7 @@ static void weights_are_the_volume_of_the_body (void **state)
     built b = build (PLATE "boundary: [{set: right, displacement: {x: 1}}]\n");
     double sum[PG_BOND_SETS] = { 0 };
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t i = 0; i < b.problem->rows[s].n; i++) sum[s] += b.problem->rows[s].weight[i];
+        for (size_t i = 0; i < b.problem->bonds.rows[s].n; i++) sum[s] += b.problem->bonds.rows[s].weight[i];
     check_relative (sum[PG_NODES], 0.1, 1e-14);
     check_relative (sum[PG_POINTS], 0.1, 1e-14);
     check_relative (sum[PG_FACETS], 0.1, 1e-14);       /* 0.5 m edge, 0.2 m thick */
@@ -39,8 +42,8 @@ static void nodal_integration_has_no_points (void **state)
 {
     (void) state;
     built b = build (PLATE "method: {integration: nodal, approximation: nosb}\n");
-    assert_int_equal (b.problem->rows[PG_POINTS].n, 0);
-    assert_int_equal (b.problem->rows[PG_FACETS].n, 0);
+    assert_int_equal (b.problem->bonds.rows[PG_POINTS].n, 0);
+    assert_int_equal (b.problem->bonds.rows[PG_FACETS].n, 0);
     /* auto: nosb with nodal integration */
     assert_true (((const galerkin_options *) b.problem->options)->silling > 0);
     unbuild (&b);
@@ -63,19 +66,20 @@ static void check_cuts (const char *crack, const char *method, double low, doubl
     size_t dead = 0, alive = 0;
     check_ok (pg_state_create (&s, p, 2));
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++)
-            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
-                const double *x = p->rows[set].x + 2 * q,
-                             *y = p->cloud.x + 2 * (size_t) p->rows[set].family.node[e];
+        for (size_t q = 0; q < p->bonds.rows[set].n; q++)
+            for (size_t e = p->bonds.rows[set].family.start[q]; e < p->bonds.rows[set].family.start[q + 1];
+                 e++) {
+                const double *x = p->bonds.rows[set].x + 2 * q,
+                             *y = p->cloud.x + 2 * (size_t) p->bonds.rows[set].family.node[e];
                 double at = (0.55 - x[0]) / (y[0] - x[0]), height = x[1] + at * (y[1] - x[1]);
                 int crosses = (x[0] - 0.55) * (y[0] - 0.55) < 0;
                 if (crosses && (fabs (height - low) < 1e-6 || fabs (height - high) < 1e-6)) continue;
                 int expected = !(crosses && height > low && height < high);
-                assert_int_equal (s->alive[p->first_bond[set] + e], expected);
+                assert_int_equal (s->alive[p->bonds.first[set] + e], expected);
                 dead += !expected, alive += expected;
             }
     assert_true (dead > 50 && alive > 1000);
-    assert_int_equal (p->eroded, 0);
+    assert_int_equal (p->crack.eroded, 0);
     pg_state_free (&s);
     assert_null (s);
     unbuild (&b);
@@ -116,7 +120,7 @@ static void check_fronts (const char *crack, const char *method, size_t n, const
     char text[600];
     snprintf (text, sizeof text, CUBE "cracks: [%s]\nmethod: {%s}\n", crack, method);
     built b = build (text);
-    const pg_crack *c = &b.problem->cracks.crack[0];
+    const pg_crack *c = &b.problem->crack.given.crack[0];
     assert_non_null (c->retreat);
     for (size_t k = 0; k < n; k++) check_scaled (c->retreat[k], expected[k], 1e-12, 0.2);
     unbuild (&b);
@@ -153,11 +157,12 @@ static void a_bond_is_found_again_by_its_number (void **state)
     built b = build (PLATE "boundary: [{set: right, displacement: {x: 1}}]\n");
     const pg_problem *p = b.problem;
     for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++)
-            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
+        for (size_t q = 0; q < p->bonds.rows[set].n; q++)
+            for (size_t e = p->bonds.rows[set].family.start[q]; e < p->bonds.rows[set].family.start[q + 1];
+                 e++) {
                 int found;
                 size_t point;
-                pg_problem_locate (p, p->first_bond[set] + e, &found, &point);
+                pg_problem_locate (p, p->bonds.first[set] + e, &found, &point);
                 assert_true (found == set && point == q);
             }
     unbuild (&b);
@@ -191,10 +196,10 @@ static void excluded_sets_exempt_what_is_near (void **state)
                            "left]}\nsets: {grip: {where: \"x > 0.75\"}}\n");
     const pg_problem *p = b.problem;
     for (size_t i = 0; i < p->cloud.n; i++)
-        assert_int_equal (p->exempt[PG_NODES][i], p->cloud.x[2 * i] > 0.75 || p->cloud.x[2 * i] < 0.01);
-    for (size_t i = 0; i < p->rows[PG_POINTS].n; i++) {
-        double x = p->rows[PG_POINTS].x[2*i];
-        assert_int_equal (p->exempt[PG_POINTS][i], x > 0.75 || x < 0.05);
+        assert_int_equal (p->bonds.exempt[PG_NODES][i], p->cloud.x[2 * i] > 0.75 || p->cloud.x[2 * i] < 0.01);
+    for (size_t i = 0; i < p->bonds.rows[PG_POINTS].n; i++) {
+        double x = p->bonds.rows[PG_POINTS].x[2*i];
+        assert_int_equal (p->bonds.exempt[PG_POINTS][i], x > 0.75 || x < 0.05);
     }
     unbuild (&b);
 }
@@ -210,7 +215,7 @@ static void a_state_can_be_copied_and_compared (void **state)
     check_ok (pg_state_create (&t, b.problem, 2));
     check_ok (pg_state_create (&alien, other.problem, 1));
     assert_int_equal (s->ndof, 132);
-    assert_int_equal (s->nbond, b.problem->first_bond[PG_BOND_SETS]);
+    assert_int_equal (s->nbond, b.problem->bonds.first[PG_BOND_SETS]);
     for (size_t i = 0; i < s->ndof; i++)
         s->d[i] = (double) i, s->v[i] = 2.0 * (double) i, s->a[i] = 3.0 * (double) i;
     s->alive[17] = 0, s->time = 4, s->broken = 1;
@@ -254,10 +259,10 @@ static void gauges_are_read (void **state)
 {
     (void) state;
     built b = build (PLATE "output: {gauges: [{name: cmod, from: [0.1, 0.2], to: [30 cm, 0.4]}]}\n");
-    assert_int_equal (b.problem->ngauge, 1);
-    assert_string_equal (b.problem->gauge[0].name, "cmod");
-    check_relative (b.problem->gauge[0].to[0], 0.3, 1e-15);
-    check_relative (b.problem->gauge[0].from[1], 0.2, 1e-15);
+    assert_int_equal (b.problem->boundary.ngauge, 1);
+    assert_string_equal (b.problem->boundary.gauge[0].name, "cmod");
+    check_relative (b.problem->boundary.gauge[0].to[0], 0.3, 1e-15);
+    check_relative (b.problem->boundary.gauge[0].from[1], 0.2, 1e-15);
     unbuild (&b);
 }
 

@@ -252,9 +252,9 @@ static void sides_and_boundaries_have_no_inside (void **state)
     assert_int_equal (pg_sets_find (&r.problem->sets, "left")->ninner, 0);
     assert_int_equal (pg_sets_find (&r.problem->sets, "jaw")->ninner, 0);
     assert_int_equal (pg_sets_find (&r.problem->sets, "all")->ninner, 81);
-    assert_int_equal (r.problem->load[0].essential, PG_ESSENTIAL_NITSCHE);
-    assert_int_equal (r.problem->load[1].essential, PG_ESSENTIAL_NITSCHE);
-    assert_int_equal (r.problem->load[2].essential, PG_ESSENTIAL_TRANSFORMATION);
+    assert_int_equal (r.problem->boundary.load[0].essential, PG_ESSENTIAL_NITSCHE);
+    assert_int_equal (r.problem->boundary.load[1].essential, PG_ESSENTIAL_NITSCHE);
+    assert_int_equal (r.problem->boundary.load[2].essential, PG_ESSENTIAL_TRANSFORMATION);
     clear (&r);
 }
 
@@ -279,7 +279,7 @@ static void too_many_points_to_eliminate_are_told (void **state)
     /* two supports, of 2944 and 3404 */
     said (text, "boundary[1].set = high: essential: transformation would eliminate 6348 points along x");
     run r = scene_of (1, big, "");
-    assert_int_equal (r.problem->load[0].essential, PG_ESSENTIAL_PENALTY);
+    assert_int_equal (r.problem->boundary.load[0].essential, PG_ESSENTIAL_PENALTY);
     clear (&r);
 }
 

@@ -22,8 +22,8 @@ static double told (const char *scene, int *crack, double *spacings, int *warns)
 {
     built b = build (scene);
     double percent = 0;
-    for (size_t k = 0; k < b.problem->nnote; k++) {
-        const char *note = b.problem->note[k], *at = strstr (note, "the opening of crack ");
+    for (size_t k = 0; k < b.problem->notes.n; k++) {
+        const char *note = b.problem->notes.text[k], *at = strstr (note, "the opening of crack ");
         if (!at) continue;
         assert_true (percent == 0);                    /* one note */
         *crack = atoi (at + 21);
@@ -114,10 +114,10 @@ static size_t cracks_of (const char *cracks, int *noted)
     char scene[1024];
     snprintf (scene, sizeof scene, SQUARE "spacing: 0.1\n" STATIC "cracks: [%s]\n", cracks);
     built b = build (scene);
-    size_t n = b.problem->cracks.n;
+    size_t n = b.problem->crack.given.n;
     *noted = 0;
-    for (size_t k = 0; k < b.problem->nnote; k++) *noted += strstr (b.problem->note[k], "count as one") !=
-        NULL;
+    for (size_t k = 0; k < b.problem->notes.n; k++)
+        *noted += strstr (b.problem->notes.text[k], "count as one") != NULL;
     unbuild (&b);
     return n;
 }
@@ -176,13 +176,13 @@ static void a_disc_in_graded_points_retreats_by_its_rim (void **state)
     check_ok (pg_scene_load (&b.scene, path));
     check_ok (pg_problem_build (&b.problem, b.scene, 1));
     const pg_problem *p = b.problem;
-    const pg_crack *c = &p->cracks.crack[0];
+    const pg_crack *c = &p->crack.given.crack[0];
     double rim = 0, centre = pg_problem_spacing_at (p, c->centre);
     for (size_t i = 0; i < c->nvertex; i++)
         rim += pg_problem_spacing_at (p, c->vertex + 3*i) / (double) c->nvertex;
-    assert_true (centre > 1.3 * rim && p->tip_offset > 0);
+    assert_true (centre > 1.3 * rim && p->crack.tip_offset > 0);
     assert_non_null (c->retreat);
-    check_relative (c->retreat[0], p->tip_offset * rim / p->cloud.h, 1e-9);
+    check_relative (c->retreat[0], p->crack.tip_offset * rim / p->cloud.h, 1e-9);
     unbuild (&b);
     unlink (points), unlink (path), rmdir (folder);
 }

@@ -58,8 +58,8 @@ static void limits_allow_for_it (void **state)
         limit[theory] = c->parameter[0];
         pg_criterion_describe (c, text, sizeof text);
         assert_int_equal (strstr (text, "measured growth") != NULL, !theory);
-        for (size_t k = 0; k < r.problem->nnote; k++)
-            told |= strstr (r.problem->note[k], "failure.calibration: theory") != NULL;
+        for (size_t k = 0; k < r.problem->notes.n; k++)
+            told |= strstr (r.problem->notes.text[k], "failure.calibration: theory") != NULL;
         assert_int_equal (told, !theory);
         clear (&r);
     }

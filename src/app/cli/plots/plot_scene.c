@@ -12,8 +12,8 @@
 static int variation_of (const pg_problem *p, const char *name)
 {
     for (int k = 0; k < PG_OF_COUNT; k++)
-        for (size_t m = 0; p->vary && m < p->nmaterial; m++)
-            if (p->vary[m].of[k] && (!name || strcmp (name, pg_variation_name (k, NULL)) == 0)) return k;
+        for (size_t m = 0; p->at.vary && m < p->nmaterial; m++)
+            if (p->at.vary[m].of[k] && (!name || strcmp (name, pg_variation_name (k, NULL)) == 0)) return k;
     return -1;
 }
 
@@ -46,7 +46,7 @@ static void find_values (const pg_problem *p, int what, double *value)
     for (size_t i = 0; i < p->cloud.n; i++) {
         size_t m = (size_t) p->block[PG_NODES][i];
         pg_place at = pg_place_of (p->dim, p->cloud.x + i * (size_t) p->dim, 0);
-        const pg_expression *e = what >= 0 && what < PG_OF_COUNT ? p->vary[m].of[what] : NULL;
+        const pg_expression *e = what >= 0 && what < PG_OF_COUNT ? p->at.vary[m].of[what] : NULL;
         if (what == DEPTH) pg_body_nearest (&p->body, p->cloud.x + i * (size_t) p->dim, &depth);
         value[i] = e                  ? pg_expression_value (e, &at)
                    : what == DEPTH    ? depth
@@ -108,7 +108,7 @@ pg_status pg_plot_scene (const plot_request *q)
     find_values (p, what, value);
     write_label (what, label);
     style.outline = outline_of (p, scene, &outline);
-    style.title = p->title, style.label = label, style.cracks = p->cracks.n ? &p->cracks : NULL;
+    style.title = p->title, style.label = label, style.cracks = p->crack.given.n ? &p->crack.given : NULL;
     if (p->dim == 3 && !style.section && !style.view) style.view = PG_VIEW_ISO;
     name_picture (q, path, sizeof path);
     PG_TRY (pg_picture_body (path, p->part.mesh.n ? &p->part : NULL, &p->cloud, value, &style));

@@ -65,15 +65,16 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     pg_status status = PG_OK;
     pg_sparse G = { 0 };
     pg_linear_info info;
-    const pg_family *seen[3] = { p->consistency ? &p->consistency->cell_family
-                                                : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family,
-                                 &p->rows[PG_FACETS].family };
+    const pg_family *seen[3] = { p->form.consistency ? &p->form.consistency->cell_family
+                                                : &p->bonds.rows[f->nodal ? PG_NODES : PG_POINTS].family,
+                                 &p->bonds.rows[PG_FACETS].family };
     size_t pinned = 0, n = 1;
-    for (size_t l = 0; l < p->nload; l++)
-        pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        pinned += pg_load_prescribes (&p->boundary.load[l])
+                  && p->boundary.load[l].essential == PG_ESSENTIAL_NITSCHE;
     n += pinned > 0;
-    if (p->patches) seen[n++] = &p->patches->family;
-    if (p->sums) PG_TRY (pg_assembly_graph_pairwise (&G, &p->rows[PG_NODES].family));
+    if (p->form.patches) seen[n++] = &p->form.patches->family;
+    if (p->sums) PG_TRY (pg_assembly_graph_pairwise (&G, &p->bonds.rows[PG_NODES].family));
     else PG_TRY (pg_assembly_graph (&G, p->cloud.n, n, seen));
     int unknowns = pg_problem_unknowns (p), many = p->criterion && p->criterion->type;
     PG_TRY (pg_linear_forecast (&G, unknowns, many, &info));

@@ -29,10 +29,10 @@ static void describe (const pg_problem *p, int width)
     for (size_t m = 0; p->nmaterial > 1 && m < p->nmaterial; m++) {
         size_t points = 0, inside = 0;
         for (size_t i = 0; i < p->cloud.n; i++) points += p->block[PG_NODES][i] == (int) m;
-        for (size_t i = 0; i < p->rows[PG_POINTS].n; i++) inside += p->block[PG_POINTS][i] == (int) m;
+        for (size_t i = 0; i < p->bonds.rows[PG_POINTS].n; i++) inside += p->block[PG_POINTS][i] == (int) m;
         pg_criterion_describe (&p->criterion[m], text, sizeof text);
         printf ("  %-*s %s: %zu points, %zu evaluation points; criterion %s\n", width, "material",
-                p->material[m].name, points, p->rows[PG_POINTS].n ? inside : points, text);
+                p->material[m].name, points, p->bonds.rows[PG_POINTS].n ? inside : points, text);
     }
 }
 
@@ -65,7 +65,7 @@ static void print_box (const pg_problem *q, int width)
         printf ("%s%c %.6g to %.6g m", k ? ", " : " ", "xyz"[k], low[k], high[k]);
     if (q->dim < 3)
         printf ("; %s %.6g m%s%s", q->dim == 2 ? "thickness" : "cross section", q->cloud.thickness,
-                q->dim == 2 ? "" : "^2", q->thickness_assumed ? " (the scene gives none)" : "");
+                q->dim == 2 ? "" : "^2", q->quality.thickness_assumed ? " (the scene gives none)" : "");
     printf ("\n");
 }
 
@@ -84,10 +84,11 @@ void plan_print (const pg_problem *p, const pg_solver_options *o, pg_statistics 
     print_box (p, 0);
     plan_passed (p);
     printf ("  %zu point%s, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n,
-            p->cloud.n == 1 ? "" : "s", p->cloud.h, p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n,
-            p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) pg_problem_unknowns (p));
+            p->cloud.n == 1 ? "" : "s", p->cloud.h,
+            p->bonds.rows[PG_POINTS].n ? p->bonds.rows[PG_POINTS].n : p->cloud.n,
+            p->bonds.first[PG_BOND_SETS], p->cloud.n * (size_t) pg_problem_unknowns (p));
     p->method->words (p, text, sizeof text);
-    printf ("  %s; horizon %.6g m\n", text, p->approx.horizon);
+    printf ("  %s; horizon %.6g m\n", text, p->form.approx.horizon);
     describe (p, 9);
     printf ("  solver %s%s\n", o->kind, stepping (o));
     pg_solver_doubts (doubts, p, o);
@@ -121,10 +122,10 @@ plan_times plan_times_of (const plan *p)
     plan_times t = { 0, 0, 0, 0 };
     double speed = 0, stiff = 0;
     double support = q->method->support_stiffness ? q->method->support_stiffness (q) : 0;
-    for (size_t m = 0; m < q->nlaw; m++) {
-        if (!(q->law[m].density > 0)) return t;
-        speed = fmax (speed, pg_material_waves (&q->law[m]).pressure);
-        stiff = fmax (stiff, q->law[m].modulus / q->law[m].density);
+    for (size_t m = 0; m < q->at.nlaw; m++) {
+        if (!(q->at.law[m].density > 0)) return t;
+        speed = fmax (speed, pg_material_waves (&q->at.law[m]).pressure);
+        stiff = fmax (stiff, q->at.law[m].modulus / q->at.law[m].density);
     }
     t.omega = fmax (2 * speed, sqrt (2 * support * stiff)) / pg_cloud_finest (&q->cloud);
     if (isfinite (p->stable)) {
@@ -167,15 +168,17 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     int quasi_static = (o->flags & PG_SOLVER_QUASI_STATIC) != 0;
     const reason reasons[] = {
         { !fails, "bond failure", "there is no failure criterion" },
-        { p->problem->approx.congruent && !p->problem->approx.refined && p->problem->method->shape_functions,
+        { p->problem->form.approx.congruent && !p->problem->form.approx.refined
+              && p->problem->method->shape_functions,
           "shape functions of most places",
           "places of a lattice that see their nodes alike have the same ones: evaluated once" },
-        { p->problem->approx.congruent && p->forecast->shared && !p->forecast->interpolates
-          && p->forecast->points + p->forecast->evaluation > 1000,
+        { p->problem->form.approx.congruent && p->forecast->shared && !p->forecast->interpolates
+              && p->forecast->points + p->forecast->evaluation > 1000,
           "memory for the shape functions of every point",
           "points of a lattice that see their nodes alike share them" },
         { fails && !steps && !o->plain && p->problem->method->shape_functions
-          && pg_problem_breaks_by_elongation (p->problem), "utilisation of most bonds",
+              && pg_problem_breaks_by_elongation (p->problem),
+          "utilisation of most bonds",
           "a bond breaks by its elongation: only where the longest of a block reaches the limit they are "
           "judged" },
         { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
@@ -196,8 +199,8 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
         { matrix && !quasi_static && !fails, "all factorizations but one",
           "the time step is constant and nothing breaks" },
         { matrix && quasi_static && !fails && !o->plain && !p->forecast->pressed
-          && p->forecast->linear->factor_taking, "memory for K beside its factor",
-          "nothing breaks: one factor serves the whole run" },
+              && p->forecast->linear->factor_taking,
+          "memory for K beside its factor", "nothing breaks: one factor serves the whole run" },
         { matrix && fails && !p->forecast->nodal, "factorization where only node-node bonds broke",
           "they do not enter K under Gauss integration" },
     };
@@ -250,7 +253,7 @@ static void print_stairs (const pg_problem *q)
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
-    const size_t *first = q->first_bond;
+    const size_t *first = q->bonds.first;
     printf ("  %-18s  %s\n", "title", q->title);
     print_box (q, 19);
     printf ("  %-18s  %zu, spacing", "points", q->cloud.n);
@@ -267,12 +270,12 @@ static void print_counts (const plan *p)
     if (q->cells.cut) print_cut (q);
     print_stairs (q);
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points",
-            q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n, q->rows[PG_FACETS].n);
+            q->bonds.rows[PG_POINTS].n ? q->bonds.rows[PG_POINTS].n : q->cloud.n, q->bonds.rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1],
             first[2] - first[1], first[3] - first[2]);
     printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns",
-            q->cloud.n * (size_t) pg_problem_unknowns (q), "horizon", q->approx.horizon,
-            q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
+            q->cloud.n * (size_t) pg_problem_unknowns (q), "horizon", q->form.approx.horizon,
+            q->form.approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
 /* The constants of each material and its wave speeds; Lame's constants are those of the mode
@@ -533,10 +536,10 @@ static void print_first_break (const plan *p)
 static void print_patch (const pg_problem *p)
 {
     char words[240];
-    if (!p->patch.measured) return;
+    if (!p->quality.patch.measured) return;
     pg_patch_words (p, words, sizeof words);
     printf ("  %-18s  %s (%s)\n", "patch test", words,
-            p->patch.held ? "outermost points constrained" : "tractions on the whole surface");
+            p->quality.patch.held ? "outermost points constrained" : "tractions on the whole surface");
 }
 
 /* Of a large body the start of the run costs as much as the run's first minutes. */
@@ -565,19 +568,19 @@ void plan_print_long (const plan *p)
     print_times (p);
     if (!(p->options->flags & PG_SOLVER_EXPLICIT) && !(p->options->flags & PG_SOLVER_STAGED))
         print_factor (p->forecast);
-    for (size_t i = 0; i < q->nplaten; i++)
-        printf ("  platen %-11s  %s%s\n", q->platen[i].name,
-                q->platen[i].shape == PG_PLATEN_PLANE      ? "plane"
-                : q->platen[i].shape == PG_PLATEN_CYLINDER ? "cylinder"
+    for (size_t i = 0; i < q->boundary.nplaten; i++)
+        printf ("  platen %-11s  %s%s\n", q->boundary.platen[i].name,
+                q->boundary.platen[i].shape == PG_PLATEN_PLANE      ? "plane"
+                : q->boundary.platen[i].shape == PG_PLATEN_CYLINDER ? "cylinder"
                                                            : "sphere",
-                q->platen[i].concave ? ", concave" : "");
-    for (size_t s = 0; s < q->nload; s++)
-        if (!q->load[s].platen)
-            printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint,
-                    q->load[s].set->nfacet);
-    if (q->eroded)
+                q->boundary.platen[i].concave ? ", concave" : "");
+    for (size_t s = 0; s < q->boundary.nload; s++)
+        if (!q->boundary.load[s].platen)
+            printf ("  boundary %-9s  %zu points, %zu facets\n", q->boundary.load[s].name,
+                    q->boundary.load[s].set->npoint, q->boundary.load[s].set->nfacet);
+    if (q->crack.eroded)
         printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded",
-                q->eroded);
+                q->crack.eroded);
     for (size_t k = 0; k < nskip; k++) printf ("  %-18s  %s (%s)\n", "skipped", skip[k].what, skip[k].why);
     print_memory (p);
     print_untried (p);

@@ -27,17 +27,18 @@ static void counts (pg_json *j, const plan *p)
     pg_json_count (j, "cells", q->cells.n);
     pg_json_count (j, "cut_cells", cut);
     pg_json_count (j, "facets", q->cells.nfacet);
-    pg_json_count (j, "evaluation_points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n);
-    pg_json_count (j, "boundary_points", q->rows[PG_FACETS].n);
+    pg_json_count (j, "evaluation_points",
+                   q->bonds.rows[PG_POINTS].n ? q->bonds.rows[PG_POINTS].n : q->cloud.n);
+    pg_json_count (j, "boundary_points", q->bonds.rows[PG_FACETS].n);
     pg_json_open (j, "bonds", '{');
     for (int s = 0; s < PG_BOND_SETS; s++)
-        pg_json_count (j, sets[s], q->first_bond[s + 1] - q->first_bond[s]);
+        pg_json_count (j, sets[s], q->bonds.first[s + 1] - q->bonds.first[s]);
     pg_json_shut (j);
     pg_json_count (j, "dofs", q->cloud.n * (size_t) pg_problem_unknowns (q));
-    pg_json_count (j, "eroded_points", q->eroded);
-    pg_json_number (j, "horizon", q->approx.horizon);
-    pg_json_number (j, "horizon_spacings", q->approx.horizon / q->cloud.h);
-    pg_json_number (j, "mean_family", (double) q->first_bond[1] / (double) q->cloud.n);
+    pg_json_count (j, "eroded_points", q->crack.eroded);
+    pg_json_number (j, "horizon", q->form.approx.horizon);
+    pg_json_number (j, "horizon_spacings", q->form.approx.horizon / q->cloud.h);
+    pg_json_number (j, "mean_family", (double) q->bonds.first[1] / (double) q->cloud.n);
     plan_mesh_json (j, q);
     pg_crack_statistics_json (j, "cracks", p->network);
 }
@@ -233,7 +234,8 @@ static pg_status write_plan (const void *what, const char *path)
     counts (j, p);
     constants (j, p->problem);
     steps (j, p);
-    if (p->problem->patch.measured) pg_json_number (j, "patch_error", p->problem->patch.error);
+    if (p->problem->quality.patch.measured)
+        pg_json_number (j, "patch_error", p->problem->quality.patch.error);
     memory (j, p);
     first (j, p);
     tips (j, p);

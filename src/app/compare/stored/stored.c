@@ -175,7 +175,7 @@ static pg_status read_step (pg_stored *s, const char *path, double broken)
     double *u = NULL;
     unsigned char *torn = NULL;
     pg_sampler field = { 0 };
-    int interpolates = s->problem->approx.type->interpolates, coefficients, displacements,
+    int interpolates = s->problem->form.approx.type->interpolates, coefficients, displacements,
         rotations = 1;
     PG_TRY (has_field (path, "coefficient", &coefficients));
     PG_TRY (has_field (path, "displacement", &displacements));

@@ -28,8 +28,8 @@ static pg_status find_slaves (galerkin *g, int k, int *role)
     size_t cap = 0, cap_load = 0;
     e->component = k;
     for (size_t i = 0; i < g->n; i++) role[i] = -1;
-    for (size_t l = p->nload; l-- > 0;) {              /* the first load wins */
-        const pg_load *load = &p->load[l];
+    for (size_t l = p->boundary.nload; l-- > 0;) {              /* the first load wins */
+        const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION)
             continue;
         for (size_t i = 0; i < load->set->npoint; i++) role[load->set->point[i]] = (int) l;
@@ -54,7 +54,7 @@ static pg_status find_masters (galerkin *g, int k, int *role)
     elimination *e = &g->supports.side[k];
     const pg_family *f = &g->rows[PG_NODES].family;
     size_t cap = 0;
-    if (g->problem->approx.type->interpolates) goto done;
+    if (g->problem->form.approx.type->interpolates) goto done;
     if (e->n > PG_MOST_ELIMINATED)
         PG_FAIL (PG_E_LIMIT,
                  "essential: transformation of %zu points in one direction needs too much memory (at most "
@@ -264,7 +264,7 @@ const pg_sparse *galerkin_basis (void *self)
 static double goal_of (const galerkin *g, const elimination *e, size_t s, double t)
 {
     double at[3];
-    return pg_load_value (&g->problem->load[e->load[s]], e->component, g->dim,
+    return pg_load_value (&g->problem->boundary.load[e->load[s]], e->component, g->dim,
                           galerkin_place (g, PG_NODES, (size_t) e->slave[s], at), t);
 }
 
@@ -307,9 +307,9 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
             if (!pg_problem_owns (g->problem, PG_NODES, (size_t) e->slave[s])) force = 0;
             out->force[at] = force, out->displacement[at] = goal_of (g, e, s, t);
             out->reaction[e->load[s] * 3 + (int) k] += force;
-            pg_load_add_moment (&g->problem->load[e->load[s]], g->dim,
+            pg_load_add_moment (&g->problem->boundary.load[e->load[s]], g->dim,
                                 galerkin_place (g, PG_NODES, (size_t) e->slave[s], place), (int) k, force,
-                                out->reaction + 3 * (g->problem->nload + (size_t) e->load[s]));
+                                out->reaction + 3 * (g->problem->boundary.nload + (size_t) e->load[s]));
         }
     }
     return at;

@@ -40,8 +40,8 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
                             const size_t *point, const size_t *to)
 {
     const galerkin *g = s->g;
-    const int *node = g->rows[s->set].family.node, *own = g->problem->limit_of[s->set],
-              *other = g->problem->limit_of[PG_NODES];
+    const int *node = g->rows[s->set].family.node, *own = g->problem->at.limit_of[s->set],
+              *other = g->problem->at.limit_of[PG_NODES];
     double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
     size_t some[BATCH], count = 0, dim = (size_t) g->dim;
     for (size_t k = 0; k < m.n; k++) {
@@ -61,13 +61,13 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
                             .reach = m.reach ? reach : NULL,
                             .s1 = m.s1 ? s1 : NULL,
                             .s3 = m.s1 ? s3 : NULL };
-    if (count) judge_by (s, &g->problem->limit[material], &m, some);
+    if (count) judge_by (s, &g->problem->at.limit[material], &m, some);
 }
 
 int galerkin_one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point)
 {
-    const int *node = g->rows[set].family.node, *own = g->problem->limit_of[set],
-              *other = g->problem->limit_of[PG_NODES];
+    const int *node = g->rows[set].family.node, *own = g->problem->at.limit_of[set],
+              *other = g->problem->at.limit_of[PG_NODES];
     int first = own[point[0]], same = 1;
     for (size_t k = 0; k < count && same; k++)
         same = own[point[k]] == first && other[node[bond[k]]] == first;
@@ -80,8 +80,8 @@ size_t galerkin_limits_of (const galerkin *g, int set, size_t count, const size_
     const int *node = g->rows[set].family.node;
     size_t n = 0;
     for (size_t k = 0; k < 2 * count; k++) {
-        int one = k < count ? g->problem->limit_of[set][point[k]]
-                            : g->problem->limit_of[PG_NODES][node[bond[k - count]]];
+        int one = k < count ? g->problem->at.limit_of[set][point[k]]
+                            : g->problem->at.limit_of[PG_NODES][node[bond[k - count]]];
         size_t seen = 0;
         while (seen < n && limit[seen] != one) seen++;
         if (seen == n) limit[n++] = one;
@@ -133,7 +133,7 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
                            .s1 = stress ? s1 : NULL,
                            .s3 = stress ? s3 : NULL };
     if (material >= 0) {
-        judge_by (s, &g->problem->limit[material], &m, to);
+        judge_by (s, &g->problem->at.limit[material], &m, to);
         return;
     }
     int limit[2 * BATCH];
@@ -148,9 +148,9 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const galerkin_judging *s = context;
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
-    const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set],
+    const unsigned char *alive = s->state->alive + g->problem->bonds.first[s->set],
                         *judged = g->bounds.judged[s->set];
-    size_t base = g->problem->first_bond[s->set], bond[BATCH], point[BATCH], to[BATCH],
+    size_t base = g->problem->bonds.first[s->set], bond[BATCH], point[BATCH], to[BATCH],
            count = 0;
     (void) thread;
     for (size_t p = first; p < last; p++)
@@ -175,7 +175,7 @@ pg_status galerkin_find_judged (galerkin *g)
         PG_ALLOC (g->bounds.judged[set], f->start[f->n]);
         for (size_t p = 0; p < f->n; p++)
             for (size_t e = f->start[p]; e < f->start[p + 1]; e++)
-                g->bounds.judged[set][e] = !q->exempt[set][p] && !q->exempt[PG_NODES][f->node[e]]
+                g->bounds.judged[set][e] = !q->bonds.exempt[set][p] && !q->bonds.exempt[PG_NODES][f->node[e]]
                                     && !pg_problem_no_bond (q, set, p, e);
     }
 done:
@@ -229,7 +229,7 @@ static pg_status judge_group (galerkin *g, const pg_state *state, const pg_bond_
     }
     for (int set = 0; set < PG_BOND_SETS; set++) {
         galerkin_judging s = { g, state, set, utilisation, factor, kind };
-        size_t base = g->problem->first_bond[set], count = 0;
+        size_t base = g->problem->bonds.first[set], count = 0;
         for (size_t k = group->first[set]; k < group->first[set + 1]; k++) {
             size_t e = group->bond[k] - base;
             if (utilisation) utilisation[k] = 0;

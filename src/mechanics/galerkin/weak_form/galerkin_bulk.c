@@ -99,7 +99,7 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
-    const size_t *first = g->problem->consistency->first;
+    const size_t *first = g->problem->form.consistency->first;
     for (size_t p = first[cell]; p < first[cell + 1]; p++) add_point (g, p, a, m, out);
 }
 

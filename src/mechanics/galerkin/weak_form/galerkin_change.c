@@ -152,7 +152,8 @@ pg_status galerkin_change_cells (galerkin *g, size_t count, const size_t *cell, 
     pg_status status = PG_OK;
     if (!g->change) return PG_OK;
     for (size_t k = 0; k < count; k++)
-        PG_TRY (add_item (g, &g->problem->consistency->cell_family, galerkin_cell_blocks, cell[k], sign));
+        PG_TRY (
+            add_item (g, &g->problem->form.consistency->cell_family, galerkin_cell_blocks, cell[k], sign));
 done:
     return status;
 }

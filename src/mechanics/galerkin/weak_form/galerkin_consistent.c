@@ -11,7 +11,7 @@
 pg_status galerkin_consistent_create (galerkin *g)
 {
     pg_status status = PG_OK;
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     g->sums = g->rows[g->bulk];
     if (!c) return PG_OK;
     g->sums.family = c->family;
@@ -21,7 +21,8 @@ pg_status galerkin_consistent_create (galerkin *g)
     memcpy (g->sums.weight, g->rows[g->bulk].weight, g->sums.n * sizeof *g->sums.weight);
     PG_ALLOC (g->whole, c->cells->n);
     PG_TRY (galerkin_ended_create (g));
-    if (g->borrows) g->sums.N = g->problem->intact->sums.N, g->sums.dN = g->problem->intact->sums.dN;
+    if (g->borrows)
+        g->sums.N = g->problem->quality.intact->sums.N, g->sums.dN = g->problem->quality.intact->sums.dN;
 done:
     return status;
 }
@@ -29,8 +30,8 @@ done:
 /* What is borrowed from the shape functions is not freed here. */
 void galerkin_consistent_free (galerkin *g)
 {
-    if (g->problem->consistency && !g->borrows) pg_free (g->sums.N), pg_free (g->sums.dN);
-    if (g->problem->consistency) pg_free (g->sums.weight);
+    if (g->problem->form.consistency && !g->borrows) pg_free (g->sums.N), pg_free (g->sums.dN);
+    if (g->problem->form.consistency) pg_free (g->sums.weight);
     galerkin_ended_free (g);
     pg_free (g->whole);
 }
@@ -39,7 +40,7 @@ void galerkin_consistent_free (galerkin *g)
  * identity would spoil what it corrects. */
 static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     const unsigned char *grade = galerkin_ended_faces (g)->grade;
     for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++)
         if (g->rows[g->bulk].grade[p] > PG_GRADE_LOWERED) return 0;
@@ -49,7 +50,7 @@ static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell
             if (grade[q] > PG_GRADE_LOWERED) return 0;
     }
     const size_t *start = g->rows[g->bulk].family.start;
-    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    const unsigned char *alive = state->alive + g->problem->bonds.first[g->bulk];
     for (size_t e = start[c->first[cell]]; e < start[c->first[cell + 1]]; e++) if (!alive[e]) return 0;
     return 1;
 }
@@ -57,14 +58,14 @@ static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell
 /* The cell, those beside it and hosts of these are no longer whole. */
 static void open_around (galerkin *g, size_t cell)
 {
-    const pg_family *f = &g->problem->consistency->opens;
+    const pg_family *f = &g->problem->form.consistency->opens;
     for (size_t k = f->start[cell]; k < f->start[cell + 1]; k++) g->whole[f->node[k]] = 0;
 }
 
 /* Are all cells complete that a cell needs to be whole? */
 static int complete_around (const galerkin *g, const pg_state *state, size_t cell)
 {
-    const pg_family *f = &g->problem->consistency->needs;
+    const pg_family *f = &g->problem->form.consistency->needs;
     for (size_t k = f->start[cell]; k < f->start[cell + 1]; k++)
         if (!bonds_complete (g, state, (size_t) f->node[k])) return 0;
     return 1;
@@ -74,7 +75,7 @@ static int complete_around (const galerkin *g, const pg_state *state, size_t cel
  * (those of a trial live again afterwards). Those that change are appended to list. */
 static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, size_t *list, size_t n)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     for (size_t k = c->opens.start[cell]; k < c->opens.start[cell + 1]; k++) {
         size_t other = (size_t) c->opens.node[k];
         int now = complete_around (g, state, other);
@@ -106,7 +107,7 @@ static pg_status changed_cells (galerkin *g, const pg_state *state, size_t count
 {
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[g->bulk];
-    size_t *list = NULL, most = g->problem->consistency->cells->n;
+    size_t *list = NULL, most = g->problem->form.consistency->cells->n;
     PG_ALLOC (list, count + most);
     *n = 0;
     for (size_t k = 0; k < count; k++) {
@@ -131,7 +132,7 @@ static void free_rows (kept_rows *k)
 /* Bonds of a cell's points, and the first of them. */
 static size_t bonds_of (const galerkin *g, size_t cell, size_t *from)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     *from = c->family.start[c->first[cell]];
     return c->family.start[c->first[cell + 1]] - *from;
 }
@@ -139,7 +140,7 @@ static size_t bonds_of (const galerkin *g, size_t cell, size_t *from)
 static pg_status keep_rows (const galerkin *g, size_t n, const size_t *cell, kept_rows *out)
 {
     pg_status status = PG_OK;
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     size_t dim = (size_t) g->dim, bonds = 0, points = 0, from;
     PG_ALLOC (out->place, 2 * n);
     for (size_t k = 0; k < n; k++) {
@@ -163,7 +164,7 @@ done:
 /* Leaves those cells in the list whose values are others than they were; returns how many. */
 static size_t different (const galerkin *g, size_t n, size_t *cell, kept_rows *old)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     size_t dim = (size_t) g->dim, kept = 0, from;
     for (size_t k = 0; k < n; k++) {
         size_t m = bonds_of (g, cell[k], &from), first = c->first[cell[k]], at = old->place[2*k];
@@ -187,7 +188,7 @@ static void swap (size_t n, double *a, double *b)
 
 static void swap_rows (galerkin *g, size_t n, const size_t *cell, kept_rows *old)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     size_t dim = (size_t) g->dim, from;
     for (size_t k = 0; k < n && g->change; k++) {
         size_t m = bonds_of (g, cell[k], &from), first = c->first[cell[k]], at = old->place[2*k];
@@ -215,7 +216,7 @@ static pg_status near_cells (galerkin *g, const pg_state *state, size_t **list, 
     memcpy (grown + count, out, before * sizeof *out);
     galerkin_ended_near (g, grown + count + before);
     count = unique (grown, count + before + now);
-    PG_ALLOC (changed, g->problem->consistency->cells->n);
+    PG_ALLOC (changed, g->problem->form.consistency->cells->n);
     for (size_t k = 0; k < count; k++) m = judge_around (g, state, grown[k], changed, m);
     galerkin_ended_mark (g);
     PG_GROW (*list, cap, count + m);
@@ -231,7 +232,7 @@ done:
 static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
 {
     pg_status status = PG_OK;
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     size_t cap = 0, count = *n;
     for (size_t k = 0; k < *n; k++) {
         size_t cell = (*list)[k], guests = c->guests.start[cell + 1] - c->guests.start[cell],
@@ -252,7 +253,7 @@ static pg_status renew (galerkin *g, size_t n, const size_t *cell)
 {
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[g->bulk];
-    PG_TRY (pg_consistency_apply (g->problem->consistency, r, &g->sums, g->whole,
+    PG_TRY (pg_consistency_apply (g->problem->form.consistency, r, &g->sums, g->whole,
                                   galerkin_ended_faces (g)->N, n, cell, g->threads));
     PG_TRY (galerkin_ended_apply (g, n, cell));
 done:
@@ -264,7 +265,7 @@ done:
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count)
 {
     pg_status status = PG_OK;
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     const pg_rows *r = &g->rows[g->bulk];
     size_t *cells = NULL, n = 0;
     kept_rows old = { 0 };

@@ -33,7 +33,7 @@ void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a,
  * carries no stress. */
 static double weight (const galerkin *g, size_t i)
 {
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     size_t p = q->point[i];
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : q->share[i] * g->sums.weight[p];
 }
@@ -43,7 +43,7 @@ static double weight (const galerkin *g, size_t i)
 static void measure_part (const galerkin *g, size_t c, int k, part *a, double *volume)
 {
     const galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     size_t dim = (size_t) g->dim;
     *volume = 0, a->size = 0;
     memset (a->centre, 0, sizeof a->centre);
@@ -69,7 +69,7 @@ static void measure_part (const galerkin *g, size_t c, int k, part *a, double *v
 static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     size_t dim = (size_t) g->dim;
     double volume, z[4];
     measure_part (g, c, k, a, &volume);
@@ -95,7 +95,7 @@ static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
 static void sum_rows (const galerkin *g, size_t c, int k, part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     const pg_rows *r = &g->sums;
     size_t dim = (size_t) g->dim, first = d->family.start[c], m = d->family.start[c + 1] - first;
     const int *node = d->family.node + first;
@@ -119,9 +119,9 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
 /* Has patch c all its bonds, and a gradient at all points? Then it is one part. */
 static int whole (const galerkin *g, const pg_state *state, size_t c)
 {
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     const size_t *start = g->rows[g->bulk].family.start;
-    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    const unsigned char *alive = state->alive + g->problem->bonds.first[g->bulk];
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i];
         if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD
@@ -154,9 +154,9 @@ static int stamped (galerkin_dilatation *d, int node, int first)
 static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
 {
     galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     const pg_rows *r = &g->rows[g->bulk];
-    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    const unsigned char *alive = state->alive + g->problem->bonds.first[g->bulk];
     size_t n = q->first[c + 1] - q->first[c];
     for (size_t e = q->family.start[c]; e < q->family.start[c + 1]; e++) d->stamp[q->family.node[e]] = -1;
     pg_disjoint_start (parent, n);
@@ -179,7 +179,7 @@ static pg_status divide (galerkin *g, const pg_state *state, size_t c, int *coun
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     size_t n = q->first[c + 1] - q->first[c];
     int *parent = NULL, *name = NULL;
     *count = 1;
@@ -239,23 +239,23 @@ pg_status galerkin_dilatation_create (galerkin *g)
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     galerkin_dilatation *d = NULL;
-    if (!p->patches) return PG_OK;
+    if (!p->form.patches) return PG_OK;
     size_t nv = (size_t) g->nv;
     PG_ALLOC (d, 1);
     g->dilatation = d;
     PG_ALLOC (d->plain, p->nmaterial);
-    PG_ALLOC (d->patch, p->patches->n);
-    PG_ALLOC (d->part_of, p->patches->first[p->patches->n]);
+    PG_ALLOC (d->patch, p->form.patches->n);
+    PG_ALLOC (d->part_of, p->form.patches->first[p->form.patches->n]);
     PG_ALLOC (d->stamp, g->n);
-    PG_ALLOC (d->mark, p->patches->n);
+    PG_ALLOC (d->mark, p->form.patches->n);
     PG_ALLOC (d->amount, g->n);
     PG_ALLOC (d->share, g->n);
     for (size_t m = 0; m < p->nmaterial; m++) {
         pg_material *a = &d->plain[m];
         *a = p->material[m];
         for (size_t k = 0; k < (size_t) g->dim; k++) {
-            a->out_of_plane[k] -= g->dim == 2 ? p->patches->lambda[m] : 0;
-            for (size_t l = 0; l < (size_t) g->dim; l++) a->D[k * nv + l] -= p->patches->lambda[m];
+            a->out_of_plane[k] -= g->dim == 2 ? p->form.patches->lambda[m] : 0;
+            for (size_t l = 0; l < (size_t) g->dim; l++) a->D[k * nv + l] -= p->form.patches->lambda[m];
         }
     }
     PG_TRY (galerkin_dilatation_facets_create (g));
@@ -268,7 +268,7 @@ void galerkin_dilatation_free (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;
     if (!d) return;
-    for (size_t c = 0; d->patch && c < g->problem->patches->n; c++)
+    for (size_t c = 0; d->patch && c < g->problem->form.patches->n; c++)
         pg_free (d->patch[c].part), pg_free (d->patch[c].g);
     galerkin_dilatation_facets_free (g);
     pg_free (d->plain), pg_free (d->patch), pg_free (d->part_of), pg_free (d->stamp), pg_free (d->mark),
@@ -281,7 +281,7 @@ void galerkin_dilatation_free (galerkin *g)
 const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
 {
     int block = g->material[set][p];
-    int carried = g->dilatation && g->problem->patches->lambda[block] > 0;
+    int carried = g->dilatation && g->problem->form.patches->lambda[block] > 0;
     return carried ? &g->dilatation->plain[block] : galerkin_material (g, set, p);
 }
 
@@ -297,7 +297,7 @@ pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int al
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     memset (d->mark, all, q->n);
     for (size_t k = 0; !all && k < count[g->bulk]; k++) mark_patches (d, q, g->list[g->bulk][k]);
     for (size_t k = 0; !all && k < count[PG_FACETS]; k++) {
@@ -323,7 +323,7 @@ const pg_family *galerkin_dilatation_family (const galerkin *g) { return &g->dil
 /* Lame's first parameter of a patch's material, Pa: a patch lies in one material. */
 static double lambda_of (const galerkin *g, size_t c)
 {
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     return q->lambda[g->material[g->bulk][q->point[q->first[c]]]];
 }
 
@@ -387,7 +387,7 @@ static void measure_patches (void *context, size_t first, size_t last, int threa
 static void measure_all (galerkin *g, const double *x, int whole)
 {
     measuring m = { g, x, whole };
-    pg_parallel (g->threads, g->problem->patches->n, measure_patches, &m);
+    pg_parallel (g->threads, g->problem->form.patches->n, measure_patches, &m);
 }
 
 /* y += K x of the patches: N, in the order of patches, so that threads do not show. */
@@ -438,7 +438,7 @@ void galerkin_dilatation_diagonal (galerkin *g, double *d)
 static double pressure_at (const galerkin *g, size_t p, const double *x)
 {
     const galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     double psi[4], sum = 0;
     for (size_t k = q->start[p]; k < q->start[p + 1]; k++) {
         size_t i = q->entry[k], c = q->of[i];
@@ -463,7 +463,7 @@ static void add_pressure (galerkin *g, int set, size_t p, double value)
 static void node_pressures (galerkin *g, double *value, double *share)
 {
     const pg_rows *r = &g->rows[g->bulk];
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     size_t dim = (size_t) g->dim;
     memset (value, 0, g->n * sizeof *value);
     memset (share, 0, g->n * sizeof *share);

@@ -39,10 +39,10 @@ static pg_status find_homes (galerkin *g)
         long home = -1;
         for (size_t q = first[cell]; q < first[cell + 1]; q++) {
             double d = pg_distance2 (g->dim, r->x + f * dim, b->x + q * dim);
-            if (is_covered (p->patches, q) && d < best) best = d, home = (long) q;
+            if (is_covered (p->form.patches, q) && d < best) best = d, home = (long) q;
         }
         if (home < 0) home = pg_nearest_find (grid, r->x + f * dim, NULL, NULL);
-        g->dilatation->home[f] = is_covered (p->patches, (size_t) home) ? home : -1;
+        g->dilatation->home[f] = is_covered (p->form.patches, (size_t) home) ? home : -1;
     }
 done:
     pg_nearest_free (&grid);
@@ -54,7 +54,7 @@ done:
  * supported. */
 static size_t behind (const galerkin *g, size_t f, const size_t **entry)
 {
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     long home = g->dilatation->home[f];
     if (g->supports.nitsche_start[f + 1] == g->supports.nitsche_start[f] || home < 0) return 0;
     *entry = q->entry + q->start[home];
@@ -66,7 +66,7 @@ static pg_status sort_facets (galerkin *g)
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
-    const pg_patches *q = g->problem->patches;
+    const pg_patches *q = g->problem->form.patches;
     const size_t *entry = NULL;
     size_t n = q->n, *next = NULL;
     PG_ALLOC (d->facet_start, n + 1);
@@ -106,7 +106,7 @@ static pg_status unite (galerkin *g)
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
-    const pg_patches *p = g->problem->patches;
+    const pg_patches *p = g->problem->form.patches;
     size_t cap = 0, n = 0;
     PG_ALLOC (d->family.start, p->n + 1);
     d->family.n = p->n;
@@ -145,7 +145,7 @@ void galerkin_dilatation_facets_free (galerkin *g)
 /* Component k of the outward normal at a facet point. */
 static double normal (const galerkin *g, size_t f, int k)
 {
-    return g->problem->facet_normal[f * (size_t) g->dim + (size_t) k];
+    return g->problem->bonds.facet_normal[f * (size_t) g->dim + (size_t) k];
 }
 
 /* s_m = int psi_m n_k N over the supported facet points of part k of patch c, on the nodes of the patch:
@@ -161,7 +161,7 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
     memset (a->s, 0, (size_t) a->terms * m * dim * sizeof *a->s);
     for (size_t i = d->facet_start[c]; i < d->facet_start[c + 1]; i++) {
         size_t f = d->facet[i], at = 0;
-        double weight = r->weight[f] * g->problem->patches->share[d->facet_entry[i]];
+        double weight = r->weight[f] * g->problem->form.patches->share[d->facet_entry[i]];
         if (d->part_of[d->facet_entry[i]] != k) continue;
         galerkin_dilatation_polynomials (g, a, r->x + f * dim, psi);
         for (size_t e = r->family.start[f]; e < r->family.start[f + 1]; e++, at++) {
@@ -179,13 +179,13 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
 static galerkin_part *part_of (const galerkin *g, size_t i)
 {
     const galerkin_dilatation *d = g->dilatation;
-    return d->part_of[i] < 0 ? NULL : &d->patch[g->problem->patches->of[i]].part[d->part_of[i]];
+    return d->part_of[i] < 0 ? NULL : &d->patch[g->problem->form.patches->of[i]].part[d->part_of[i]];
 }
 
 /* Its lambda, Pa. */
 static double lambda_behind (const galerkin *g, size_t f)
 {
-    return g->problem->patches->lambda[g->material[g->bulk][g->dilatation->home[f]]];
+    return g->problem->form.patches->lambda[g->material[g->bulk][g->dilatation->home[f]]];
 }
 
 /* c_m of all parts at time t, from the displacements measured at facet points: sum w psi_m n_k (u_k -
@@ -197,7 +197,7 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     size_t dim = (size_t) g->dim;
     const size_t *entry = NULL;
     double psi[4];
-    for (size_t c = 0; d && c < g->problem->patches->n; c++)
+    for (size_t c = 0; d && c < g->problem->form.patches->n; c++)
         for (size_t k = 0; k < d->patch[c].n; k++)
             memset (d->patch[c].part[k].gap, 0, sizeof d->patch[c].part[k].gap);
     for (size_t i = 0; d && i < g->supports.nnitsche; i++) {
@@ -209,7 +209,7 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
             if (!a) continue;
             galerkin_dilatation_polynomials (g, a, r->x + q->point * dim, psi);
             for (int m = 0; m < a->terms; m++)
-                a->gap[m] += r->weight[q->point] * g->problem->patches->share[entry[k]] * psi[m]
+                a->gap[m] += r->weight[q->point] * g->problem->form.patches->share[entry[k]] * psi[m]
                              * normal (g, q->point, q->component) * gap;
         }
     }
@@ -225,7 +225,8 @@ double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
         const galerkin_part *a = part_of (g, entry[k]);
         if (!a) continue;
         galerkin_dilatation_polynomials (g, a, g->rows[PG_FACETS].x + q->point * (size_t) g->dim, psi);
-        for (int m = 0; m < a->terms; m++) sum += g->problem->patches->share[entry[k]] * psi[m] * a->gap[m];
+        for (int m = 0; m < a->terms; m++)
+            sum += g->problem->form.patches->share[entry[k]] * psi[m] * a->gap[m];
     }
     if (n == 0) return 0;
     return -(1 + g->options->nitsche) * lambda_behind (g, q->point) * normal (g, q->point, q->component)
@@ -238,7 +239,7 @@ void galerkin_dilatation_adjoint (const galerkin *g, double *f)
 {
     const galerkin_dilatation *d = g->dilatation;
     size_t dim = (size_t) g->dim;
-    for (size_t c = 0; d && c < g->problem->patches->n; c++) {
+    for (size_t c = 0; d && c < g->problem->form.patches->n; c++) {
         if (d->facet_start[c + 1] == d->facet_start[c]) continue;
         double lambda = lambda_behind (g, d->facet[d->facet_start[c]]);
         for (size_t k = 0; k < d->patch[c].n; k++) {

@@ -20,16 +20,17 @@ pg_status galerkin_eigen_create (galerkin *g)
     if (!pg_problem_strained (g->problem)) return PG_OK;
     const pg_problem *p = g->problem;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (e->strain[s], g->rows[s].n);
-    PG_ALLOC (e->pattern, p->nload * PG_BOND_SETS);
-    for (size_t l = 0; l < p->nload; l++)
-        for (int s = 0; s < PG_BOND_SETS && p->load[l].kind == PG_EIGENSTRAIN; s++) {
-            if (!pg_load_separates (&p->load[l])) continue;
+    PG_ALLOC (e->pattern, p->boundary.nload * PG_BOND_SETS);
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        for (int s = 0; s < PG_BOND_SETS && p->boundary.load[l].kind == PG_EIGENSTRAIN; s++) {
+            if (!pg_load_separates (&p->boundary.load[l])) continue;
             double *pattern = NULL;
             PG_ALLOC (pattern, g->rows[s].n);
             e->pattern[l * PG_BOND_SETS + (size_t) s] = pattern;
             for (size_t q = 0; q < g->rows[s].n; q++)
-                pattern[q] = p->load[l].per_material[g->material[s][q]]
-                             * pg_load_pattern (&p->load[l], 0, p->dim, g->rows[s].x + q * (size_t) p->dim);
+                pattern[q] = p->boundary.load[l].per_material[g->material[s][q]]
+                             * pg_load_pattern (&p->boundary.load[l], 0, p->dim,
+                                                g->rows[s].x + q * (size_t) p->dim);
         }
     e->time = NAN;
 done:
@@ -40,7 +41,7 @@ void galerkin_eigen_free (galerkin *g)
 {
     galerkin_eigenstrain *e = &g->eigen;
     for (int s = 0; s < PG_BOND_SETS; s++) pg_free (e->strain[s]);
-    for (size_t k = 0; e->pattern && k < g->problem->nload * PG_BOND_SETS; k++)
+    for (size_t k = 0; e->pattern && k < g->problem->boundary.nload * PG_BOND_SETS; k++)
         pg_free (e->pattern[k]);
     pg_free (e->pattern);
 }
@@ -73,7 +74,8 @@ static double size_of_forces (const galerkin *g)
         if (!pg_problem_owns (g->problem, g->bulk, p)) continue;
         none[0] = held (m) * g->eigen.strain[g->bulk][p];
         m->type->stress (m, 1, none, s, &zz);
-        double f = g->problem->rows[g->bulk].weight[p] * s[0] / pg_problem_spacing (g->problem, g->bulk, p);
+        double f = g->problem->bonds.rows[g->bulk].weight[p] * s[0]
+                   / pg_problem_spacing (g->problem, g->bulk, p);
         sum += f * f;
     }
     if (pg_cloud_sum (&g->problem->cloud, 1, &sum) != PG_OK) return NAN;
@@ -83,7 +85,7 @@ static double size_of_forces (const galerkin *g)
 /* Adds the free strains of a load at time t; of one that is a pattern times a factor of t by its pattern. */
 static void add_load (galerkin *g, size_t l, int s, double t)
 {
-    const pg_load *load = &g->problem->load[l];
+    const pg_load *load = &g->problem->boundary.load[l];
     const double *pattern = g->eigen.pattern[l * PG_BOND_SETS + (size_t) s];
     size_t dim = (size_t) g->dim;
     double factor = pattern ? pg_load_factor (load, t) : 0;
@@ -99,8 +101,8 @@ void galerkin_eigen_at (galerkin *g, double t)
     if (!e->strain[PG_NODES] || t == e->time) return;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         memset (e->strain[s], 0, g->rows[s].n * sizeof *e->strain[s]);
-        for (size_t l = 0; l < g->problem->nload; l++)
-            if (g->problem->load[l].kind == PG_EIGENSTRAIN) add_load (g, l, s, t);
+        for (size_t l = 0; l < g->problem->boundary.nload; l++)
+            if (g->problem->boundary.load[l].kind == PG_EIGENSTRAIN) add_load (g, l, s, t);
         g->measured.fresh[s] = 0;
     }
     e->time = t;
@@ -116,10 +118,10 @@ void galerkin_eigen_relieve (const galerkin *g, double t, const double *x, size_
     const pg_problem *p = g->problem;
     const pg_material *m = galerkin_material (g, g->bulk, q);
     double free = 0, e[6] = { 0 }, s[6] = { 0 }, zz = 0;
-    for (size_t l = 0; l < p->nload; l++)
-        if (p->load[l].kind == PG_EIGENSTRAIN)
-            free += p->load[l].per_material[g->material[g->bulk][q]] * pg_load_value (&p->load[l], 0,
-                    p->dim, x, t);
+    for (size_t l = 0; l < p->boundary.nload; l++)
+        if (p->boundary.load[l].kind == PG_EIGENSTRAIN)
+            free += p->boundary.load[l].per_material[g->material[g->bulk][q]]
+                    * pg_load_value (&p->boundary.load[l], 0, p->dim, x, t);
     for (int k = 0; k < g->dim; k++) e[k] = held (m) * free;
     m->type->stress (m, 1, e, s, &zz);
     for (int k = 0; k < (g->dim == 3 ? 6 : g->dim); k++) stress[k] -= s[k];
@@ -164,7 +166,7 @@ static double on_gap (const galerkin *g, const constraint *q, double t)
 {
     size_t dim = (size_t) g->dim;
     const pg_material *m = galerkin_material (g, PG_FACETS, q->point);
-    const double *normal = g->problem->facet_normal + q->point * dim;
+    const double *normal = g->problem->bonds.facet_normal + q->point * dim;
     double e[6] = { 0 }, s[6], zz, traction = 0,
         gap = g->measured.u[PG_FACETS][q->point * dim + (size_t) q->component]
                  - galerkin_prescribed (g, q, PG_FACETS, t);

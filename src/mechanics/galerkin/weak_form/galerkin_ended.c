@@ -17,7 +17,7 @@
 pg_status galerkin_ended_create (galerkin *g)
 {
     pg_status status = PG_OK;
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     if (!c || g->dim != 2) return PG_OK;
     PG_ALLOC (g->ended, 1);
     PG_ALLOC (g->ended->at, c->cells->n);
@@ -64,7 +64,7 @@ static pg_status list_faces (const galerkin *g, size_t **list, size_t *n)
 {
     pg_status status = PG_OK;
     const struct galerkin_ended *e = g->ended;
-    const pg_faces *f = &g->problem->consistency->faces;
+    const pg_faces *f = &g->problem->form.consistency->faces;
     unsigned char *taken = NULL;
     size_t *out = NULL;
     PG_ALLOC (taken, f->n);
@@ -85,7 +85,7 @@ static pg_status evaluate_faces (galerkin *g, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
     struct galerkin_ended *e = g->ended;
-    const pg_rows *r = &g->problem->consistency->face;
+    const pg_rows *r = &g->problem->form.consistency->face;
     size_t *list = NULL, n = 0, bonds = r->family.start[r->n];
     if (!e->face.N) {
         PG_ALLOC (e->alive, bonds);
@@ -102,8 +102,8 @@ static pg_status evaluate_faces (galerkin *g, const pg_cracks *cracks)
     PG_TRY (list_faces (g, &list, &n));
     looking l = { g, cracks, &e->face, e->face.x, list, e->alive };
     pg_parallel (g->threads, n, look, &l);
-    PG_TRY (g->problem->approx.type->evaluate (&g->problem->approx, &g->problem->cloud, &e->face, e->alive, n,
-                                               list, g->threads));
+    PG_TRY (g->problem->form.approx.type->evaluate (&g->problem->form.approx, &g->problem->cloud, &e->face,
+                                                    e->alive, n, list, g->threads));
 done:
     pg_free (list);
     return status;
@@ -136,7 +136,7 @@ static pg_status evaluate_extra (galerkin *g, const pg_cracks *cracks)
     pg_status status = PG_OK;
     struct galerkin_ended *e = g->ended;
     const pg_problem *p = g->problem;
-    pg_approx a = p->approx;
+    pg_approx a = p->form.approx;
     size_t bonds = e->nextra ? e->extra.family.start[e->nextra] : 0;
     a.horizon = fmax (a.horizon, ENDED_RADIUS * p->cloud.h);
     a.order = 1, a.congruent = a.extrapolates = a.projected = 0;
@@ -170,7 +170,7 @@ static int weaken (struct galerkin_ended *e, const pg_faces *f, size_t face)
 static int fail_poor (galerkin *g)
 {
     struct galerkin_ended *e = g->ended;
-    const pg_faces *f = &g->problem->consistency->faces;
+    const pg_faces *f = &g->problem->form.consistency->faces;
     int failed = 0;
     for (size_t q = 0; q < e->nextra; q++) {
         ended_cell *c = &e->near[e->part[q][0]];
@@ -212,7 +212,7 @@ static void add_values (const pg_rows *rows, size_t q, const double *flux, doubl
 static void integrate (const galerkin *g, size_t k, int p, size_t m, const int *node, double *sum)
 {
     const struct galerkin_ended *e = g->ended;
-    const pg_faces *f = &g->problem->consistency->faces;
+    const pg_faces *f = &g->problem->form.consistency->faces;
     for (long at = e->first[PG_PARTS * k + (size_t) p]; at;) {
         size_t i = (size_t) (at > 0 ? at : -at) - 1;
         if (at > 0) {
@@ -232,7 +232,7 @@ static void integrate (const galerkin *g, size_t k, int p, size_t m, const int *
 static double volume_of (const galerkin *g, size_t k, int p)
 {
     const struct galerkin_ended *e = g->ended;
-    const pg_faces *f = &g->problem->consistency->faces;
+    const pg_faces *f = &g->problem->form.consistency->faces;
     size_t cell = e->near[k].cell;
     double sum = pg_cell_part_area (&e->near[k].parts.part[p]);
     for (size_t i = f->of[cell]; i < f->of[cell + 1]; i++)
@@ -250,7 +250,7 @@ static double volume_of (const galerkin *g, size_t k, int p)
  * a gradient of their own have the mean one. */
 static void treat (galerkin *g, size_t k, int p, double *sum)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     const ended_cell *e = &g->ended->near[k];
     size_t from = c->cell_family.start[e->cell], m = c->cell_family.start[e->cell + 1] - from;
     double volume = volume_of (g, k, p), weight = 0, good = 0, *mean = sum + 2*m;
@@ -280,7 +280,7 @@ static void treat (galerkin *g, size_t k, int p, double *sum)
 /* Values and grades at the faces of all cells: those of the intact body until there are others. */
 const pg_rows *galerkin_ended_faces (const galerkin *g)
 {
-    return g->ended && g->ended->face.N ? &g->ended->face : &g->problem->consistency->face;
+    return g->ended && g->ended->face.N ? &g->ended->face : &g->problem->form.consistency->face;
 }
 
 pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved)
@@ -317,7 +317,7 @@ pg_status galerkin_ended_apply (galerkin *g, size_t count, const size_t *list)
 {
     pg_status status = PG_OK;
     const struct galerkin_ended *e = g->ended;
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     double *sum = NULL;
     size_t most = 0;
     for (size_t k = 0; k < count; k++) {

@@ -15,13 +15,13 @@ static double reach_of (const galerkin *g)
     const pg_cloud *c = &g->problem->cloud;
     double most = 1;
     for (size_t i = 0; c->size && i < c->n; i++) most = fmax (most, pg_cloud_ratio (c, i));
-    return most * g->problem->approx.horizon;
+    return most * g->problem->form.approx.horizon;
 }
 
 /* The widest support of the points of a cell and of its faces, over the usual one. */
 static double widest_of (const galerkin *g, size_t cell)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     const double *points = g->rows[g->bulk].wide, *faces = c->face.wide;
     double most = 1;
     for (size_t q = c->first[cell]; points && q < c->first[cell + 1]; q++) most = fmax (most, points[q]);
@@ -62,7 +62,7 @@ static pg_status find_near (galerkin *g, const pg_cracks *cracks)
     pg_status status = PG_OK;
     struct galerkin_ended *e = g->ended;
     const pg_cells *cells = &g->problem->cells;
-    const pg_faces *f = &g->problem->consistency->faces;
+    const pg_faces *f = &g->problem->form.consistency->faces;
     unsigned char *listed = NULL;
     double reach = reach_of (g), low[3], high[3];
     for (size_t k = 0; k < e->n; k++) e->at[e->near[k].cell] = 0;
@@ -114,7 +114,7 @@ static void look_for_tips (galerkin *g, const pg_cracks *cracks)
 {
     struct galerkin_ended *e = g->ended;
     double low[2], high[2], reach = reach_of (g), same = pg_cloud_same (&g->problem->cloud),
-                            beyond = g->problem->approx.kernel->closed ? same : -same;
+                            beyond = g->problem->form.approx.kernel->closed ? same : -same;
     for (size_t k = 0; k < cracks->n; k++)
         for (int end = 0; end < 2; end++) {
             const double *x = cracks->crack[k].vertex + 2 * end;
@@ -131,10 +131,10 @@ static void look_for_tips (galerkin *g, const pg_cracks *cracks)
 /* Are just those bonds of the cell's points broken that the cracks cut? */
 static int explained (const galerkin *g, const pg_state *state, const pg_cracks *cracks, size_t cell)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     const pg_rows *r = &g->rows[g->bulk];
     const pg_cloud *cloud = &g->problem->cloud;
-    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    const unsigned char *alive = state->alive + g->problem->bonds.first[g->bulk];
     for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++) {
         if (pg_cracks_touch (cracks, r->x + 2*p, PG_NO_LENGTH * cloud->h)) return 0;
         for (size_t b = r->family.start[p]; b < r->family.start[p + 1]; b++) {
@@ -149,7 +149,7 @@ static int explained (const galerkin *g, const pg_state *state, const pg_cracks 
 /* The evaluation points in a part; each must lie clearly in one. */
 static size_t points_in (const galerkin *g, size_t cell, const pg_cell_part *part)
 {
-    const pg_consistency *c = g->problem->consistency;
+    const pg_consistency *c = g->problem->form.consistency;
     size_t n = 0;
     for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++)
         n += (size_t) pg_cell_part_holds (part, g->sums.x + 2*p);
@@ -159,7 +159,7 @@ static size_t points_in (const galerkin *g, size_t cell, const pg_cell_part *par
 /* The face of the problem on a side of a cell, SIZE_MAX: none; *other: the cell beyond, -1: none. */
 static size_t face_on (const galerkin *g, size_t cell, const double *a, const double *b, int *other)
 {
-    const pg_faces *f = &g->problem->consistency->faces;
+    const pg_faces *f = &g->problem->form.consistency->faces;
     double length = hypot (b[0] - a[0], b[1] - a[1]);
     for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++) {
         size_t face = (size_t) f->face[k], on = 0;
@@ -331,7 +331,7 @@ static void find_hosts (galerkin *g)
 static int in_parts (const galerkin *g, const ended_cell *c)
 {
     const struct galerkin_ended *e = g->ended;
-    const pg_consistency *all = g->problem->consistency;
+    const pg_consistency *all = g->problem->form.consistency;
     const pg_cell_part *p = &c->parts.part[0];
     if (c->parts.n > 1 || c->guest) return 1;
     for (size_t q = all->first[c->cell]; q < all->first[c->cell + 1]; q++)
@@ -399,7 +399,7 @@ static pg_status add_point (galerkin *g, leaning on, const double *x, const doub
         PG_GROW (e->flux, e->cap_flux, 2 * (q + 1));
         PG_GROW (e->part, e->cap_part, q + 1);
         PG_GROW (e->crack, e->cap_crack, q + 1);
-        PG_TRY (add_family (e, &g->problem->consistency->cell_family, on));
+        PG_TRY (add_family (e, &g->problem->form.consistency->cell_family, on));
         for (size_t k = 0; k < 2; k++) {
             e->extra.x[2*q + k] = x[k], e->eye[2*q + k] = x[k] - away * normal[k];
             e->flux[2*q + k] = weight / on.own->n * g->problem->cells.thickness * normal[k];
@@ -512,8 +512,8 @@ pg_status ended_plan (galerkin *g, const pg_state *state)
     struct galerkin_ended *e = g->ended;
     const pg_cracks *cracks = pg_state_cracks (g->problem, state);
     if (ended_moved (g, state)) PG_TRY (find_near (g, cracks));
-    if (!e->weak) PG_ALLOC (e->weak, g->problem->consistency->faces.n);
-    memset (e->weak, 0, g->problem->consistency->faces.n);
+    if (!e->weak) PG_ALLOC (e->weak, g->problem->form.consistency->faces.n);
+    memset (e->weak, 0, g->problem->form.consistency->faces.n);
     for (size_t k = 0; k < e->n; k++) e->near[k].failed = e->near[k].blocked = 0;
     look_for_tips (g, cracks);
     for (size_t k = 0; k < e->n; k++) {

@@ -46,7 +46,8 @@ static void polynomial (const recovery *r, size_t p, size_t node, double *q)
     double z[3];
     int m = 0;
     for (size_t k = 0; k < dim; k++)
-        z[k] = (r->rows->x[p * dim + k] - g->problem->cloud.x[node * dim + k]) / g->problem->approx.horizon;
+        z[k] = (r->rows->x[p * dim + k] - g->problem->cloud.x[node * dim + k])
+               / g->problem->form.approx.horizon;
     q[m++] = 1;
     for (size_t k = 0; k < dim && r->order > 0; k++) q[m++] = z[k];
     for (size_t k = 0; k < dim && r->order > 1; k++)
@@ -127,7 +128,7 @@ static double complementary (const recovery *r, size_t p, const double *s)
 {
     double e[VOIGT], sum = 0;
     memcpy (e, s, (size_t) r->g->nv * sizeof *s);
-    pg_dense_solve (r->g->nv, r->L + 36 * (size_t) r->g->problem->law_of[r->g->bulk][p], e);
+    pg_dense_solve (r->g->nv, r->L + 36 * (size_t) r->g->problem->at.law_of[r->g->bulk][p], e);
     for (int v = 0; v < r->g->nv; v++) sum += s[v] * e[v];
     return sum;
 }
@@ -220,7 +221,7 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
     pg_status status = PG_OK;
     galerkin *g = self;
     const pg_problem *p = g->problem;
-    recovery r = { .g = g, .rows = &g->rows[g->bulk], .order = p->approx.order };
+    recovery r = { .g = g, .rows = &g->rows[g->bulk], .order = p->form.approx.order };
     double *volume = NULL, start = pg_seconds ();
     size_t points = r.rows->n;
     *out = (pg_estimate) { 0 };
@@ -232,12 +233,12 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
     PG_ALLOC (r.known, g->n);
     PG_ALLOC (r.error, points);
     PG_ALLOC (r.size, points);
-    PG_ALLOC (r.L, 36 * p->nlaw);
+    PG_ALLOC (r.L, 36 * p->at.nlaw);
     PG_ALLOC (volume, g->n);
-    for (size_t m = 0; m < p->nlaw; m++) {
-        memcpy (r.L + 36 * m, p->law[m].D, 36 * sizeof *r.L);
+    for (size_t m = 0; m < p->at.nlaw; m++) {
+        memcpy (r.L + 36 * m, p->at.law[m].D, 36 * sizeof *r.L);
         if (pg_dense_cholesky (g->nv, r.L + 36 * m, 1e-12) != 0)
-            PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->law[m].name);
+            PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->at.law[m].name);
     }
     galerkin_measure (g, g->bulk, d);
     r.stress = g->measured.stress[g->bulk];

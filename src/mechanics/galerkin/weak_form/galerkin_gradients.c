@@ -89,7 +89,7 @@ void galerkin_point_rows (void *context, size_t p, size_t a, size_t m, double *o
 void galerkin_cell_rows (void *context, size_t cell, size_t a, size_t m, double *out)
 {
     const galerkin *g = context;
-    const size_t *first = g->problem->consistency->first;
+    const size_t *first = g->problem->form.consistency->first;
     sum_points (g, first[cell], first[cell + 1], a, m, out);
 }
 

@@ -45,8 +45,8 @@ static pg_status find_owners (const galerkin *g, pg_bond_group *group, unsigned 
         const pg_family *f = &g->rows[set].family;
         size_t point = 0;
         group->first[set] = k;
-        for (; k < group->n && group->bond[k] < p->first_bond[set + 1]; k++) {
-            size_t e = group->bond[k] - p->first_bond[set];
+        for (; k < group->n && group->bond[k] < p->bonds.first[set + 1]; k++) {
+            size_t e = group->bond[k] - p->bonds.first[set];
             if (f->start[point + 1] <= e) {            /* the next one, or one far off: by bisection */
                 size_t low = point + 1, high = f->n;
                 while (high - low > 1) {
@@ -239,7 +239,7 @@ static void judge_some (const others *o, size_t p, size_t n, const size_t *entry
     for (size_t i = 0; i < n; i++) point[i] = p;
     int material = galerkin_one_material (g, o->set, n, entry, point);
     if (material >= 0) {
-        judge_by_law (o, &g->problem->limit[material], p, n, entry, own, top);
+        judge_by_law (o, &g->problem->at.limit[material], p, n, entry, own, top);
         return;
     }
     int limit[2 * CHUNK];
@@ -248,10 +248,10 @@ static void judge_some (const others *o, size_t p, size_t n, const size_t *entry
         int m = limit[k];
         size_t count = 0;
         for (size_t i = 0; i < n; i++)
-            if (g->problem->limit_of[o->set][p] == m
-                || g->problem->limit_of[PG_NODES][g->rows[o->set].family.node[entry[i]]] == m)
+            if (g->problem->at.limit_of[o->set][p] == m
+                || g->problem->at.limit_of[PG_NODES][g->rows[o->set].family.node[entry[i]]] == m)
                 some[count++] = entry[i];
-        if (count) judge_by_law (o, &g->problem->limit[m], p, count, some, own, top);
+        if (count) judge_by_law (o, &g->problem->at.limit[m], p, count, some, own, top);
     }
 }
 
@@ -261,7 +261,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const others *o = context;
     const galerkin *g = o->g;
     const pg_family *f = &g->rows[o->set].family;
-    size_t base = g->problem->first_bond[o->set], entry[CHUNK], size = o->width * o->count;
+    size_t base = g->problem->bonds.first[o->set], entry[CHUNK], size = o->width * o->count;
     const unsigned char *alive = o->state->alive + base, *judged = g->bounds.judged[o->set],
                         *left_out = o->left_out + base;
     double *room = o->room + (size_t) thread * o->room_size, *place = room + o->room_size - size,
@@ -304,8 +304,8 @@ done:
 /* Is the criterion, of all materials, a linear form of what it judges by? */
 static int is_linear (const pg_problem *p, int stress)
 {
-    for (size_t m = 0; m < p->nlimit; m++) {
-        const pg_criterion *c = &p->limit[m];
+    for (size_t m = 0; m < p->at.nlimit; m++) {
+        const pg_criterion *c = &p->at.limit[m];
         const pg_bond_measures none = { .dim = p->dim };
         double form[2][2];
         if (stress ? !c->type->planes || !c->type->planes (c, form)

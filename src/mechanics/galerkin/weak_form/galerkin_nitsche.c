@@ -39,8 +39,8 @@ static pg_status find_nitsche (galerkin *g)
     PG_ALLOC (c->nitsche_start, r->n + 1);
     for (size_t q = 0; q < r->n; q++) {
         unsigned taken = 0;
-        for (size_t l = 0; l < p->nload; l++) {
-            const pg_load *load = &p->load[l];
+        for (size_t l = 0; l < p->boundary.nload; l++) {
+            const pg_load *load = &p->boundary.load[l];
             if (load->essential != PG_ESSENTIAL_NITSCHE
                 || !member (load->set->facet, load->set->nfacet, r->cell[q]))
                 continue;
@@ -70,8 +70,8 @@ static pg_status find_penalties (galerkin *g)
     for (size_t i = 0; i < g->n; i++) {
         unsigned taken = 0;
         int any = 0;                                   /* springs, beside whatever holds the node */
-        for (size_t l = 0; l < p->nload; l++) {
-            const pg_load *load = &p->load[l];
+        for (size_t l = 0; l < p->boundary.nload; l++) {
+            const pg_load *load = &p->boundary.load[l];
             int spring = load->kind == PG_SPRING;
             if ((load->essential != PG_ESSENTIAL_PENALTY && !spring)
                 || !member (load->set->point, load->set->npoint, (int) i))
@@ -142,8 +142,8 @@ static int loaded (const galerkin *g, int set, size_t point)
     const pg_problem *p = g->problem;
     if (set == PG_FACETS && c->nnitsche && c->nitsche_start[point + 1] > c->nitsche_start[point]) return 1;
     if (set == PG_NODES && c->npenalty && galerkin_penalty_of (g, point) >= 0) return 1;
-    for (size_t l = 0; l < p->nload; l++) {
-        const pg_load *load = &p->load[l];
+    for (size_t l = 0; l < p->boundary.nload; l++) {
+        const pg_load *load = &p->boundary.load[l];
         int everywhere = is_everywhere (g, load);
         if (load->cracks || (everywhere && set == g->bulk)) return 1;
         if ((load->kind == PG_TRACTION || load->kind == PG_PRESSURE) && set == PG_FACETS
@@ -184,7 +184,7 @@ static double beta (const galerkin *g, size_t q)
 
 static const double *normal (const galerkin *g, size_t q)
 {
-    return g->problem->facet_normal + q * (size_t) g->dim;
+    return g->problem->bonds.facet_normal + q * (size_t) g->dim;
 }
 
 /* QD: the Voigt vector D' Q, so that (sigma (v) n)_k = QD . B v: the traction that a displacement v of
@@ -259,13 +259,13 @@ static double penalty (const galerkin *g, const constraint *q)
     const pg_problem *p = g->problem;
     size_t node = (size_t) g->supports.penalty_node[q->point];
     double h = pg_problem_spacing (p, PG_NODES, node);
-    const pg_load *load = &p->load[q->load];
+    const pg_load *load = &p->boundary.load[q->load];
     if (load->kind == PG_SPRING) {
         const int own = (int) node, *at = pg_search (&own, load->set->point, load->set->npoint, sizeof own,
                                                    pg_ascending_ints);
         return load->stiffness[q->component] * pg_load_share (load, (size_t) (at - load->set->point));
     }
-    return p->load[q->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)
+    return p->boundary.load[q->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)
            * p->cloud.volume[node];
 }
 
@@ -341,7 +341,7 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
  * pressure pushes against the outward normal. */
 static void visit_facet_load (const galerkin *g, double t, int l, visitor visit, void *context)
 {
-    const pg_load *load = &g->problem->load[l];
+    const pg_load *load = &g->problem->boundary.load[l];
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
     for (size_t q = 0; q < r->n; q++) {
@@ -360,7 +360,7 @@ static void visit_facet_load (const galerkin *g, double t, int l, visitor visit,
  * points each takes its own volume. */
 static void visit_point_load (const galerkin *g, double t, int l, visitor visit, void *context)
 {
-    const pg_load *load = &g->problem->load[l];
+    const pg_load *load = &g->problem->boundary.load[l];
     size_t dim = (size_t) g->dim;
     int everywhere = is_everywhere (g, load),
         set = everywhere ? g->bulk : PG_NODES;
@@ -381,8 +381,8 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
 /* By the kind of each load. */
 static void visit_loads (const galerkin *g, double t, visitor visit, void *context)
 {
-    for (size_t l = 0; l < g->problem->nload; l++) {
-        pg_load_kind kind = g->problem->load[l].kind;
+    for (size_t l = 0; l < g->problem->boundary.nload; l++) {
+        pg_load_kind kind = g->problem->boundary.load[l].kind;
         if (kind == PG_TRACTION || kind == PG_PRESSURE) visit_facet_load (g, t, (int) l, visit, context);
         if (kind == PG_POINT_FORCE || kind == PG_BODY_FORCE) visit_point_load (g, t, (int) l, visit, context);
     }
@@ -392,7 +392,7 @@ static void visit_loads (const galerkin *g, double t, visitor visit, void *conte
 static double pressure_at (const galerkin *g, size_t l, double t)
 {
     static const double anywhere[3] = { 0 };
-    return pg_load_value (&g->problem->load[l], 0, g->dim, anywhere, t);
+    return pg_load_value (&g->problem->boundary.load[l], 0, g->dim, anywhere, t);
 }
 
 typedef struct { galerkin *g; double *f; } spreading;
@@ -497,8 +497,8 @@ void galerkin_loads (galerkin *g, double t, double *P)
     spreading s = { g, P };
     memset (P, 0, g->n * (size_t) g->dim * sizeof *P);
     visit_loads (g, t, spread, &s);
-    for (size_t l = 0; l < g->problem->nload; l++)
-        if (g->problem->load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), P);
+    for (size_t l = 0; l < g->problem->boundary.nload; l++)
+        if (g->problem->boundary.load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), P);
 }
 
 /* Adds loads and supports to the residual, N; *external and *reaction: their sums of squares, by which
@@ -562,7 +562,7 @@ size_t galerkin_boundary_pairs (galerkin *g)
     size_t n = 0;
     visit_supports (g, 0, count_pair, &n);
     visit_loads (g, 0, count_pair, &n);
-    for (size_t l = 0; l < g->problem->nload; l++) n += g->problem->load[l].cracks != 0;
+    for (size_t l = 0; l < g->problem->boundary.nload; l++) n += g->problem->boundary.load[l].cracks != 0;
     return n;
 }
 
@@ -577,8 +577,8 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
     const pg_problem *p = w->g->problem;
     double at[3];
     if (!pg_problem_owns (p, set, point)) force = 0;
-    pg_load_add_moment (&p->load[load], p->dim, galerkin_place (w->g, set, point, at), k, force,
-                        w->out->reaction + 3 * (p->nload + (size_t) load));
+    pg_load_add_moment (&p->boundary.load[load], p->dim, galerkin_place (w->g, set, point, at), k, force,
+                        w->out->reaction + 3 * (p->boundary.nload + (size_t) load));
     w->out->force[w->at] = force, w->out->displacement[w->at++] = displacement;
     w->out->reaction[load * 3 + k] += force;
 }
@@ -589,8 +589,8 @@ size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, p
     writing w = { g, out, 0 };
     visit_supports (g, t, write_pair, &w);
     visit_loads (g, t, write_pair, &w);
-    for (size_t l = 0; l < g->problem->nload; l++) {
-        if (!g->problem->load[l].cracks) continue;
+    for (size_t l = 0; l < g->problem->boundary.nload; l++) {
+        if (!g->problem->boundary.load[l].cracks) continue;
         out->force[w.at] = pressure_at (g, l, t);      /* its displacement is the volume of the cracks */
         out->displacement[w.at++] = galerkin_crack_volume (g, d);
     }

@@ -144,7 +144,7 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
 {
     pg_assembly_source source[4];
     size_t n = 0;
-    const pg_adjacency *cells = g->whole ? &g->problem->consistency->cell_family : NULL;
+    const pg_adjacency *cells = g->whole ? &g->problem->form.consistency->cell_family : NULL;
     source[n] = (pg_assembly_source) { .seen = cells ? cells : &g->sums.family, .context = g,
                                        .known = known };
     if (galerkin_has_rows (g))

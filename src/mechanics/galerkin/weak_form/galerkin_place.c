@@ -30,6 +30,6 @@ double galerkin_prescribed (const galerkin *g, const constraint *q, int set, dou
     double at[3];
     size_t point = set == PG_FACETS ? q->point : (size_t) g->supports.penalty_node[q->point];
     if (g->rows[set].grade[point] == PG_GRADE_DEAD) return 0;
-    return pg_load_value (&g->problem->load[q->load], q->component, g->dim,
+    return pg_load_value (&g->problem->boundary.load[q->load], q->component, g->dim,
                           galerkin_place (g, set, point, at), t);
 }

@@ -43,13 +43,13 @@ static int all_alive (const galerkin *g, int set, const pg_state *state)
 {
     const pg_family *f = &g->rows[set].family;
     size_t bonds = f->start[f->n];
-    return !bonds || !memchr (state->alive + g->problem->first_bond[set], 0, bonds);
+    return !bonds || !memchr (state->alive + g->problem->bonds.first[set], 0, bonds);
 }
 
 /* Where sums are over the rows of the set itself they follow these. */
 static void follow (galerkin *g)
 {
-    if (g->problem->consistency) g->sums.grade = g->rows[g->bulk].grade;
+    if (g->problem->form.consistency) g->sums.grade = g->rows[g->bulk].grade;
     else g->sums = g->rows[g->bulk];
 }
 
@@ -182,7 +182,8 @@ static pg_status evaluate_shared (galerkin *g, const unsigned char *alive, int s
             size_t i = number[k] = list ? list[first + k] : first + k;
             r->at[i] = at, at += r->family.start[i + 1] - r->family.start[i];
         }
-        PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &part, alive, n, number, g->threads));
+        PG_TRY (
+            p->form.approx.type->evaluate (&p->form.approx, &p->cloud, &part, alive, n, number, g->threads));
         for (size_t k = 0; k < n; k++) PG_TRY (keep_row (g->store[set], r, &part, number[k]));
         r->copied = part.copied, r->copied_bonds = part.copied_bonds;
     }
@@ -202,7 +203,7 @@ static pg_status evaluate_own (galerkin *g, const unsigned char *alive, int set,
     if (!r->N) PG_ALLOC (r->N, bonds);
     if (!r->dN) PG_ALLOC (r->dN, bonds * (size_t) g->dim);
     if (!r->w) PG_ALLOC (r->w, bonds);
-    PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, alive, count, list, g->threads));
+    PG_TRY (p->form.approx.type->evaluate (&p->form.approx, &p->cloud, r, alive, count, list, g->threads));
 done:
     return status;
 }
@@ -211,9 +212,9 @@ pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t
 {
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
-    const unsigned char *alive = state->alive + p->first_bond[set];
+    const unsigned char *alive = state->alive + p->bonds.first[set];
     pg_rows *r = &g->rows[set];
-    int shared = p->approx.congruent && !p->plain && !p->consistency && !(g->options->silling > 0)
+    int shared = p->form.approx.congruent && !p->plain && !p->form.consistency && !(g->options->silling > 0)
                  && set != PG_FACETS;
     if (!r->N || !r->dN || !r->w) list = NULL;         /* of none of them values are known */
     if (!list) count = r->n;
@@ -238,10 +239,10 @@ static void move_values (pg_rows *to, pg_rows *from)
 /* Boundary facets of the bare problem are others than those of the run: only nodes and points are kept. */
 static void lend (galerkin *g)
 {
-    pg_intact *kept = g->problem->intact;
+    pg_intact *kept = g->problem->quality.intact;
     galerkin_stiffness *k = &g->stiffness;
     for (int set = PG_NODES; set <= PG_POINTS; set++) move_values (&kept->rows[set], &g->rows[set]);
-    if (g->problem->consistency) move_values (&kept->sums, &g->sums), kept->sums.grade = NULL;
+    if (g->problem->form.consistency) move_values (&kept->sums, &g->sums), kept->sums.grade = NULL;
     if (kept->wanted < 2 || !k->K || k->all_stale || g->dilatation) return;
     kept->K = k->K, k->K = NULL;
     pg_assembly_settle (kept->K);
@@ -251,11 +252,11 @@ pg_status galerkin_rows_create (galerkin *g, int set)
 {
     pg_status status = PG_OK;
     pg_rows *r = &g->rows[set];
-    *r = g->problem->rows[set];
+    *r = g->problem->bonds.rows[set];
     r->N = r->dN = r->w = NULL, r->at = NULL, r->grade = NULL;
-    g->borrows = g->problem->intact && g->problem->intact->rows[PG_NODES].N;
+    g->borrows = g->problem->quality.intact && g->problem->quality.intact->rows[PG_NODES].N;
     if (g->borrows && set != PG_FACETS) {
-        pg_rows values = g->problem->intact->rows[set];
+        pg_rows values = g->problem->quality.intact->rows[set];
         move_values (r, &values);
     } else PG_ALLOC (r->grade, r->n);
 done:
@@ -264,7 +265,7 @@ done:
 
 void galerkin_rows_free (galerkin *g)
 {
-    const pg_intact *kept = g->problem->intact;
+    const pg_intact *kept = g->problem->quality.intact;
     if (kept && kept->wanted && g->rows[PG_NODES].N) lend (g);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         if (galerkin_borrows (g, s)) continue;
@@ -279,7 +280,7 @@ int galerkin_borrows (const galerkin *g, int set) { return g->borrows && set != 
  * bits. */
 pg_assembly *galerkin_take_stiffness (const galerkin *g)
 {
-    return g->borrows ? __atomic_exchange_n (&g->problem->intact->K, NULL, __ATOMIC_ACQ_REL) : NULL;
+    return g->borrows ? __atomic_exchange_n (&g->problem->quality.intact->K, NULL, __ATOMIC_ACQ_REL) : NULL;
 }
 
 int galerkin_give_back (galerkin *g, const pg_state *state)
@@ -287,7 +288,7 @@ int galerkin_give_back (galerkin *g, const pg_state *state)
     pg_rows none = { 0 };
     if (!g->borrows || (all_alive (g, PG_NODES, state) && all_alive (g, PG_POINTS, state))) return 0;
     for (int set = PG_NODES; set <= PG_POINTS; set++) move_values (&g->rows[set], &none);
-    if (g->problem->consistency) g->sums.N = g->sums.dN = NULL;
+    if (g->problem->form.consistency) g->sums.N = g->sums.dN = NULL;
     g->borrows = 0;
     return 1;
 }

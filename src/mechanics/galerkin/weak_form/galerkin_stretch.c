@@ -54,7 +54,7 @@ PG_WIDE static void measure (const looking *w, size_t first, size_t last)
 {
     const galerkin *g = w->g;
     const pg_rows *r = &g->rows[w->set];
-    const unsigned char *alive = w->state->alive + g->problem->first_bond[w->set],
+    const unsigned char *alive = w->state->alive + g->problem->bonds.first[w->set],
                         *judged = g->bounds.judged[w->set];
     size_t dim = (size_t) g->dim;
     for (size_t b = first; b < last; b++) {
@@ -119,7 +119,7 @@ static pg_status search_point (search *s, size_t p)
     const galerkin *g = b->judge.g;
     int set = b->judge.set;
     const pg_rows *r = &g->rows[set];
-    const unsigned char *alive = b->judge.state->alive + g->problem->first_bond[set],
+    const unsigned char *alive = b->judge.state->alive + g->problem->bonds.first[set],
                         *judged = g->bounds.judged[set];
     size_t dim = (size_t) g->dim;
     double own[PLACE] = { 0 };
@@ -156,7 +156,7 @@ pg_status galerkin_longest (galerkin *g, const pg_state *state, const double *d,
                             double *utilisation, char *kind, double *top, pg_changes *over)
 {
     pg_status status = PG_OK;
-    const pg_criterion *c = g->problem->limit;
+    const pg_criterion *c = g->problem->at.limit;
     search s = { .batch.judge = { g, state, 0, utilisation, NULL, kind } };
     double most = NONE, limit = c->type->elongation (c, from, &s.square);
     PG_TRY (find_longest (g, state, d, s.square, &most));

@@ -10,10 +10,12 @@ pg_status galerkin_surface (void *self, const double *stress, double *P)
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
     for (size_t q = 0; q < r->n; q++) {
-        const double *n = g->problem->facet_normal + q * dim;
+        const double *n = g->problem->bonds.facet_normal + q * dim;
         double t[3] = { 0 };
         for (size_t k = 0; k < dim; k++)
-            for (size_t c = 0; c < dim && !(g->problem->borne && g->problem->borne[r->cell[q]] >> k & 1); c++)
+            for (size_t c = 0;
+                 c < dim && !(g->problem->quality.borne && g->problem->quality.borne[r->cell[q]] >> k & 1);
+                 c++)
                 t[k] += stress[pg_voigt_at (g->dim, (int) k, (int) c)] * n[c] * r->weight[q];
         for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++)
             for (size_t k = 0; k < dim; k++) P[(size_t) r->family.node[e] * dim + k] += r->N[e] * t[k];

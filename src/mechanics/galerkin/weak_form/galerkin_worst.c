@@ -23,8 +23,8 @@ enum { FEW = 8 };
 static envelope envelope_of (const pg_problem *p)
 {
     envelope all = { 0 };
-    for (size_t k = 0; p->nlimit > FEW && k < p->nlimit; k++) {
-        const pg_criterion *c = &p->limit[k];
+    for (size_t k = 0; p->at.nlimit > FEW && k < p->at.nlimit; k++) {
+        const pg_criterion *c = &p->at.limit[k];
         double form[2][2];
         int n = c->type->planes ? c->type->planes (c, form) : 0;
         if (c->never) continue;
@@ -53,7 +53,7 @@ static double at_most (const envelope *all, double s1, double s3)
 static void judge_alone (const bounding *c, size_t first, size_t last)
 {
     const galerkin *g = c->g;
-    const unsigned char *exempt = g->problem->exempt[c->set];
+    const unsigned char *exempt = g->problem->bonds.exempt[c->set];
     double out[GALERKIN_BLOCK], *alone = g->bounds.alone[c->set];
     for (size_t p = first; p < last; p++) alone[p] = exempt[p] ? NEVER : 0;
     if (c->all->n) {
@@ -61,8 +61,8 @@ static void judge_alone (const bounding *c, size_t first, size_t last)
             if (!exempt[p]) alone[p] = at_most (c->all, g->measured.s1[c->set][p], g->measured.s3[c->set][p]);
         return;
     }
-    for (size_t k = 0; k < g->problem->nlimit; k++) {
-        const pg_criterion *law = &g->problem->limit[k];
+    for (size_t k = 0; k < g->problem->at.nlimit; k++) {
+        const pg_criterion *law = &g->problem->at.limit[k];
         pg_bond_measures m = { .n = last - first, .dim = g->dim, .s1 = g->measured.s1[c->set] + first,
             .s3 = g->measured.s3[c->set] + first };
         law->type->utilisation (law, &m, out, NULL);
@@ -96,8 +96,8 @@ static void bound_blocks (void *context, size_t first, size_t last, int thread)
 static int all_grow (const galerkin *g)
 {
     int grow = 1;
-    for (size_t k = 0; k < g->problem->nlimit && grow; k++) {
-        const pg_criterion *law = &g->problem->limit[k];
+    for (size_t k = 0; k < g->problem->at.nlimit && grow; k++) {
+        const pg_criterion *law = &g->problem->at.limit[k];
         double form[2][2];
         int n = law->type->planes ? law->type->planes (law, form) : 0;
         grow = n > 0;
@@ -153,7 +153,7 @@ static void make_exact (galerkin *g, int set, size_t p)
 pg_status galerkin_judge_batch (galerkin_batch *b)
 {
     pg_status status = PG_OK;
-    size_t base = b->judge.g->problem->first_bond[b->judge.set], to[BATCH];
+    size_t base = b->judge.g->problem->bonds.first[b->judge.set], to[BATCH];
     double *u = b->judge.utilisation;
     for (size_t k = 0; k < b->count; k++) to[k] = base + b->bond[k], u[to[k]] = 0;
     if (b->count) galerkin_judge (&b->judge, b->count, b->bond, b->point, to);
@@ -200,7 +200,7 @@ static pg_status search_point (search *s, size_t p)
     const galerkin *g = b->judge.g;
     int set = b->judge.set;
     const pg_family *f = &g->rows[set].family;
-    const unsigned char *alive = b->judge.state->alive + g->problem->first_bond[set];
+    const unsigned char *alive = b->judge.state->alive + g->problem->bonds.first[set];
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
         double other = g->bounds.alone[PG_NODES][f->node[e]];
         if (!alive[e] || !may (s, g->bounds.alone[set][p], other)
