@@ -286,7 +286,8 @@ static inline pg_status front_solve (const front_case *c, front_result *out)
     PG_TRY (pg_state_create (&state, problem, pg_solver_components (solver)));
     while (!pg_solver_done (solver, state)) PG_TRY (pg_solver_step (solver, state, &step));
     double solved = front_seconds ();
-    if (problem->crack.nfront != 1) PG_FAIL (PG_E_USAGE, "%zu fronts where one was expected", problem->crack.nfront);
+    if (problem->crack.nfront != 1)
+        PG_FAIL (PG_E_USAGE, "%zu fronts where one was expected", problem->crack.nfront);
     out->n = problem->crack.front[0].n, out->points = problem->cloud.n;
     PG_ALLOC (out->field, out->n);
     PG_ALLOC (out->K, out->n);

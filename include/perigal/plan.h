@@ -21,41 +21,45 @@ enum {
     PG_BYTES_RESULTS,
     PG_BYTES_COUNT
 };
+/* What is true of a run, 1 or 0. */
 typedef struct {
-    /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
-    int    dim, nodal, breaks, pictures;
-    int    matrixless;                                 /* 1: the force has no matrix (state-based) */
-    int    rotations;                                      /* rotations of a point */
-    const pg_method *method;                           /* the force */
-    /* its points are no lattice; no linear systems at all */
-    int    listed, explicit_;
-    /* without shape functions: bonds are summed by lists of neighbours, on a lattice or off it */
-    int    by_list;
-    int    counted, analysed;  /* 1: the counts, the factor are exact, not estimates */
-    /* what will factor K; NULL: conjugate gradients, no matrix */
-    const struct pg_linear_type *linear;
+    int    nodal, breaks, pictures;  /* the points of evaluation are the nodes; with a criterion */
+    int    matrixless;                                 /* the force has no matrix (state-based) */
+    int    listed, explicit_;  /* its points are no lattice; no linear systems at all */
+    int    by_list;  /* without shape functions: sums by lists of neighbours, on a lattice or off it */
+    int    counted, analysed;  /* the counts, the factor are exact, not estimates */
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */
     /* events: a factor would serve many; elements: finite elements may precondition */
     int    events, elements;
-    int    order, interpolates, behind, scattered;     /* as in pg_solve_counts */
-    /* 1: points are on no lattice, or moved off it; bytes that every rank keeps of a mesh, and that it needs
-     * while it reads the file of its points */
-    int    irregular;  double mesh, reading;
-    double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
-    char   ordering[16];                               /* of an analysed factor */
-    double spacing, step[3], horizon;                  /* m */
-    /* evaluation: Gauss points, 0 if nodal; facets: their points */
-    double points, cells, evaluation, facets;
+    int    interpolates, behind, scattered;            /* as in pg_solve_counts */
+    int    irregular;                                  /* points are on no lattice, or moved off it */
+    int    pressed;                                    /* contact of crack faces, 2: with friction */
+    int    shared;  /* points of a lattice, none of whose bonds breaks, share rows that are alike */
+} pg_run_traits;
+/* How much of everything there is. */
+typedef struct {
+    double points, cells, evaluation, facets;  /* Gauss points, 0 if nodal; points of facets */
     double bonds[PG_BOND_SETS], dofs;
-    /* pressed: contact of crack faces, 2: with friction; columns: as in pg_solve_counts */
-    int    pressed;  double columns;
+    double mesh, reading;  /* bytes that every rank keeps of a mesh, and needs while it reads its points */
+    double columns;                                    /* as in pg_solve_counts */
     double slaves, eliminated;  /* essential: transformation: unknowns, entries of its matrices */
-    int    shared;  /* 1: points of a lattice, none of whose bonds breaks, share rows that are alike */
     double summed;  /* consistent integration: what its points and faces see; else 0 */
     double patched;  /* nodes of all patches of the dilatation, once the problem is built */
     double pairs;                                      /* nodes I <= J that share a point of evaluation */
-    double edge[3], width;  /* nodes along the body, of a separator (nested dissection) */
     double fields;                                     /* of result.e */
+} pg_run_counts;
+typedef struct {
+    int    dim, rotations;                             /* rotations of a point */
+    const pg_method *method;                           /* the force */
+    pg_run_traits is;
+    pg_run_counts count;
+    /* what will factor K; NULL: conjugate gradients, no matrix */
+    const struct pg_linear_type *linear;
+    int    order;                                      /* of the basis */
+    double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
+    char   ordering[16];                               /* of an analysed factor */
+    double spacing, step[3], horizon;                  /* m */
+    double edge[3], width;  /* nodes along the body, of a separator (nested dissection) */
     double matrix_entries, factor_entries, factor_flops;  /* upper triangle; of L */
     double bytes[PG_BYTES_COUNT], peak;
 } pg_forecast;

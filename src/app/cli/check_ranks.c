@@ -60,7 +60,7 @@ done:
 static void foresee (outlook *o, const pg_scene *scene)
 {
     for (int r = 0; r < o->c->ranks; r++) o->total += o->part[r].owned;
-    if (!o->divided) o->total = o->whole.points;
+    if (!o->divided) o->total = o->whole.count.points;
     for (int r = 0; r < o->c->ranks; r++) {
         pg_forecast f = o->divided ? pg_forecast_of_part (&o->whole, &o->part[r], o->total,
                                                           r == 0 && pg_result_joins (scene, o->total))

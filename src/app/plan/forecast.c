@@ -61,19 +61,19 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
  * with finite elements cost less (solve_costs.c). */
 static pg_solve_counts counts_of (const pg_forecast *f)
 {
-    int set = f->nodal ? PG_NODES : PG_POINTS;
+    int set = f->is.nodal ? PG_NODES : PG_POINTS;
     pg_solve_counts c = { .dim = f->dim,
                           .components = f->dim,
                           .order = f->order,
-                          .interpolates = f->interpolates,
-                          .projected = f->patched > 0,
-                          .behind = f->behind,
-                          .scattered = f->scattered,
-                          .points = f->points,
-                          .evaluation = f->nodal ? f->points : f->evaluation,
-                          .bonds = f->bonds[set],
+                          .interpolates = f->is.interpolates,
+                          .projected = f->count.patched > 0,
+                          .behind = f->is.behind,
+                          .scattered = f->is.scattered,
+                          .points = f->count.points,
+                          .evaluation = f->is.nodal ? f->count.points : f->count.evaluation,
+                          .bonds = f->count.bonds[set],
                           .reach = f->horizon / f->spacing,
-                          .columns = f->columns };
+                          .columns = f->count.columns };
     for (int k = 0; k < 3; k++) c.edge[k] = f->edge[k];
     return c;
 }
@@ -81,23 +81,24 @@ static pg_solve_counts counts_of (const pg_forecast *f)
 static int by_elements (const pg_forecast *f)
 {
     pg_solve_counts c = counts_of (f);
-    return pg_solve_by_elements (&c, f->elements, f->events, f->dynamic);
+    return pg_solve_by_elements (&c, f->is.elements, f->is.events, f->is.dynamic);
 }
 
 /* In small time steps of implicit dynamics, where the diagonal does as preconditioner. */
 static int mass_dominates (const pg_forecast *f)
 {
-    return f->dynamic && f->weight <= 9 * f->spacing * f->spacing;
+    return f->is.dynamic && f->weight <= 9 * f->spacing * f->spacing;
 }
 
 static void choose_linear (pg_forecast *f)
 {
-    if (!f->automatic) return;
-    int none = f->explicit_ || f->matrixless ? 1
-               : mass_dominates (f) ? 1
+    if (!f->is.automatic) return;
+    int none = f->is.explicit_ || f->is.matrixless ? 1
+               : mass_dominates (f)                ? 1
                : !f->method->shape_functions
-                   ? !f->dynamic
-                         && pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
+                   ? !f->is.dynamic
+                         && pg_method_iterates (f->method, 1, f->dim,
+                                                f->count.points * (f->dim + f->rotations))
                    : by_elements (f);
     f->linear = none ? NULL : f->linear ? f->linear : pg_linear_usual (1, 1);
 }
@@ -129,17 +130,17 @@ static const double most_different = 4000, part = 5e5;
  * all sets; all: bonds of all sets. */
 static double shape_bytes (const pg_forecast *f, double all, double rows)
 {
-    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, bytes;
-    int listed = f->listed || f->by_list, factors = f->linear != NULL;
+    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->count.points, bytes;
+    int listed = f->is.listed || f->is.by_list, factors = f->linear != NULL;
     double different = all;
-    if (f->shared && !f->interpolates) different = fmin (all, most_different * all / rows + part);
-    bytes = (16 + 8 * d) * different + rows * (16 * nv + 8 * d + 45) + 24 * f->dofs;       /* galerkin */
-    bytes += (12 + 8 * d) * f->summed;  /* pg_consistency */
-    bytes += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
+    if (f->is.shared && !f->is.interpolates) different = fmin (all, most_different * all / rows + part);
+    bytes = (16 + 8 * d) * different + rows * (16 * nv + 8 * d + 45) + 24 * f->count.dofs; /* galerkin */
+    bytes += (12 + 8 * d) * f->count.summed;  /* pg_consistency */
+    bytes += (4 + 8 * d * (d + 1)) * f->count.patched;  /* galerkin_dilatation */
     if (!f->method->shape_functions)  /* pg_bond_loop, bond */
         bytes = (listed ? (f->rotations ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->rotations) * n
-                + (factors ? 0 : 8 * f->dofs);
-    if (f->matrixless && f->rotations)                                                     /* dilatations */
+                + (factors ? 0 : 8 * f->count.dofs);
+    if (f->is.matrixless && f->rotations) /* dilatations */
         bytes += (listed ? 9 : 0.25) * all + (120 + 40 * d) * n;
     return bytes;
 }
@@ -154,18 +155,18 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
  * of columns of the compliance, also of those that stay zero. */
 static double vector_bytes (const pg_forecast *f)
 {
-    double d = f->dim, n = f->points, m = d + f->rotations, corners = pow (2, d), bytes;
-    int at_rest = !f->explicit_ && !f->dynamic, small = f->explicit_ || mass_dominates (f);
-    bytes = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
-    if (f->matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));      /* lps_rows.c */
+    double d = f->dim, n = f->count.points, m = d + f->rotations, corners = pow (2, d), bytes;
+    int at_rest = !f->is.explicit_ && !f->is.dynamic, small = f->is.explicit_ || mass_dominates (f);
+    bytes = (2 * 3 + 13 + 2 * 5) * 8 * f->count.dofs;
+    if (f->is.matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));      /* lps_rows.c */
     if (!f->method->shape_functions && !f->linear && at_rest)
         bytes += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
-    if (f->method->shape_functions && !f->linear) bytes += 100 * (f->nodal ? n : f->evaluation);
+    if (f->method->shape_functions && !f->linear) bytes += 100 * (f->is.nodal ? n : f->count.evaluation);
     pg_solve_counts c = counts_of (f);
-    if (f->method->shape_functions && !f->linear && f->elements && !small)
+    if (f->method->shape_functions && !f->linear && f->is.elements && !small)
         bytes += pg_solve_on_grid (&c) ? n * (16 * corners + 16 * d)
-                                       : 24 * f->bonds[PG_NODES] + 8 * m * m * pow (3, d) * n;
-    return bytes + 24 * f->dofs * f->columns * (f->dim == 3 && f->pressed == 1 ? 3 : 1);
+                                       : 24 * f->count.bonds[PG_NODES] + 8 * m * m * pow (3, d) * n;
+    return bytes + 24 * f->count.dofs * f->count.columns * (f->dim == 3 && f->is.pressed == 1 ? 3 : 1);
 }
 
 /* K with its lists of blocks, and its factor, where there is one; slaves: unknowns that elimination takes
@@ -173,17 +174,18 @@ static double vector_bytes (const pg_forecast *f)
  * two factors. */
 static void add_matrix_bytes (pg_forecast *f)
 {
-    double bulk = f->nodal        ? f->bonds[PG_NODES]
-                  : f->summed > 0 ? f->summed
-                                  : f->bonds[PG_POINTS];
+    double bulk = f->is.nodal        ? f->count.bonds[PG_NODES]
+                  : f->count.summed > 0 ? f->count.summed
+                                  : f->count.bonds[PG_POINTS];
     double *b = f->bytes;
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (!f->linear) return;
     int lu = !f->linear->symmetric;
     b[PG_BYTES_MATRIX] = !f->method->shape_functions
-                             ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
-                             : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
-                                   + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+                             ? 24 * f->matrix_entries + (f->count.slaves > 0 ? 56 * f->matrix_entries : 0)
+                             : 16 * bulk + 4 * f->count.pairs + 24 * f->matrix_entries
+                                   + 8 * f->count.eliminated
+                                   + (f->count.slaves > 0 ? 56 * f->matrix_entries : 0);
     double entries = lu ? 2 * f->factor_entries : f->factor_entries;
     b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
 }
@@ -193,7 +195,7 @@ static void add_matrix_bytes (pg_forecast *f)
  * take SuiteSparse and BLAS with 6 MB. */
 static double program_bytes (const pg_forecast *f)
 {
-    int factors = f->linear || !(f->explicit_ || mass_dominates (f));
+    int factors = f->linear || !(f->is.explicit_ || mass_dominates (f));
     return 9e6 + (factors ? 6e6 : 0);
 }
 
@@ -201,19 +203,20 @@ static double program_bytes (const pg_forecast *f)
  * run, however small; 37e6: pictures, with the libraries that draw them. */
 void pg_forecast_sum (pg_forecast *f)
 {
-    double d = f->dim, n = f->points, m = d + f->rotations, *b = f->bytes;
-    double all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
+    double d = f->dim, n = f->count.points, m = d + f->rotations, *b = f->bytes;
+    double all = f->count.bonds[0] + f->count.bonds[1] + f->count.bonds[2],
+           rows = n + f->count.evaluation + f->count.facets;
     choose_linear (f);
-    f->dofs = n * m;
-    f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
+    f->count.dofs = n * m;
+    f->matrix_entries = (f->count.pairs - n) * m * m + n * m * (m + 1) / 2;
     b[PG_BYTES_PROGRAM] = program_bytes (f);
-    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * pow (2, d);  /* pg_cloud, pg_cells */
+    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->count.cells * 8 * d * pow (2, d);  /* pg_cloud, pg_cells */
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows */
     b[PG_BYTES_SHAPES] = shape_bytes (f, all, rows);
     /* states; break_loop; factored */
-    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + (f->linear != NULL)) * all;
+    b[PG_BYTES_BREAKING] = (2 + (f->is.explicit_ || !f->is.breaks ? 0 : 17) + (f->linear != NULL)) * all;
     b[PG_BYTES_VECTORS] = vector_bytes (f);
-    b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 1.5e6 + (f->pictures ? 37e6 : 0);
+    b[PG_BYTES_RESULTS] = (f->count.fields + 2) * 6 * 8 * n + 1.5e6 + (f->is.pictures ? 37e6 : 0);
     add_matrix_bytes (f);
     f->peak = 0;
     for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];
@@ -222,7 +225,7 @@ void pg_forecast_sum (pg_forecast *f)
 /* By the law of dissection, unless an analysis has counted. */
 void forecast_factor (pg_forecast *f)
 {
-    if (f->analysed) return;
+    if (f->is.analysed) return;
     dissect (f, &f->factor_entries, &f->factor_flops);
 }
 
@@ -247,8 +250,8 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
     }
     for (size_t i = 0; i < p->cloud.n; i++) masters += role[i] == 2;
     if (p->form.approx.type->interpolates) masters = 0;
-    f->slaves += slaves;
-    f->eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
+    f->count.slaves += slaves;
+    f->count.eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
 }
 
 /* As the loop over bonds decides under `auto`, which takes a stencil where one law serves all points. */
@@ -264,9 +267,9 @@ static int summed_by_list (const pg_problem *p)
 static double contact_columns (const pg_forecast *f, const pg_problem *p)
 {
     double pieces = 0;
-    for (size_t i = 0; f->pressed && i < p->crack.given.n; i++)
+    for (size_t i = 0; f->is.pressed && i < p->crack.given.n; i++)
         pieces += pg_crack_size (&p->crack.given.crack[i], p->dim) / pow (2 * p->cloud.h, p->dim - 1);
-    return pieces * (p->dim == 3 && f->pressed == 1 ? 1 : p->dim);
+    return pieces * (p->dim == 3 && f->is.pressed == 1 ? 1 : p->dim);
 }
 
 /* Counts of the problem itself; pairs of nodes keep their number per point, which only an analysis knows
@@ -275,28 +278,31 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
     unsigned char *role = NULL;
-    double shared = f->points > 0 ? f->pairs / f->points : 0;
+    double shared = f->count.points > 0 ? f->count.pairs / f->count.points : 0;
     PG_ALLOC (role, p->cloud.n);
-    f->slaves = f->eliminated = 0;
+    f->count.slaves = f->count.eliminated = 0;
     for (int k = 0; k < p->dim; k++) count_slaves (f, p, k, role);
-    f->points = (double) p->cloud.n, f->cells = (double) p->cells.n;
-    f->evaluation = (double) p->bonds.rows[PG_POINTS].n, f->facets = (double) p->bonds.rows[PG_FACETS].n;
-    for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->bonds.first[s + 1] - p->bonds.first[s]);
-    f->pairs = !p->method->shape_functions ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
-    f->matrixless = p->sums && p->sums->rule.state;
-    f->method = p->method, f->listed = p->sums && p->sums->stencil.n == 0,
-    f->by_list = p->sums && summed_by_list (p), f->rotations = pg_problem_rotations (p);
-    f->summed = p->form.consistency
+    f->count.points = (double) p->cloud.n, f->count.cells = (double) p->cells.n;
+    f->count.evaluation = (double) p->bonds.rows[PG_POINTS].n,
+    f->count.facets = (double) p->bonds.rows[PG_FACETS].n;
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        f->count.bonds[s] = (double) (p->bonds.first[s + 1] - p->bonds.first[s]);
+    f->count.pairs = !p->method->shape_functions ? 0.5 * f->count.bonds[PG_NODES] + f->count.points
+                                                 : shared * f->count.points;
+    f->is.matrixless = p->sums && p->sums->rule.state;
+    f->method = p->method, f->is.listed = p->sums && p->sums->stencil.n == 0,
+    f->is.by_list = p->sums && summed_by_list (p), f->rotations = pg_problem_rotations (p);
+    f->count.summed = p->form.consistency
                     ? (double) (p->form.consistency->family.start[p->form.consistency->family.n]
                                 + p->form.consistency->face.family.start[p->form.consistency->face.n])
                     : 0;
-    f->patched = p->form.patches ? (double) p->form.patches->family.start[p->form.patches->n] : 0;
+    f->count.patched = p->form.patches ? (double) p->form.patches->family.start[p->form.patches->n] : 0;
     f->horizon = p->form.approx.horizon, f->spacing = p->cloud.h;
-    f->columns = contact_columns (f, p);
-    f->behind = pg_solve_count (p).behind, f->scattered = pg_solve_count (p).scattered;
+    f->count.columns = contact_columns (f, p);
+    f->is.behind = pg_solve_count (p).behind, f->is.scattered = pg_solve_count (p).scattered;
     /* from event to event by a factor that is kept: bonds one by one without contact (event_stepping.c) */
-    f->events = f->events && !f->pressed && !pg_problem_grows (p);
-    f->counted = 1;
+    f->is.events = f->is.events && !f->is.pressed && !pg_problem_grows (p);
+    f->is.counted = 1;
     forecast_factor (f);
     pg_forecast_sum (f);
 done:
@@ -307,8 +313,8 @@ done:
 /* An ordering was made: its counts take the place of all estimates of the factor. */
 void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops)
 {
-    f->pairs = pairs, f->factor_entries = entries, f->factor_flops = flops;
-    f->analysed = 1;
+    f->count.pairs = pairs, f->factor_entries = entries, f->factor_flops = flops;
+    f->is.analysed = 1;
     snprintf (f->ordering, sizeof f->ordering, "%s", ordering);
     pg_forecast_sum (f);
 }
@@ -324,17 +330,20 @@ pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
     double nodes = 1;
     g.spacing = spacing;
     for (int k = 0; k < f->dim; k++) {
-        double edge = f->behind || !(f->edge[k] > 1) ? f->edge[k] * finer : 1 + (f->edge[k] - 1) * finer;
+        double edge = f->is.behind || !(f->edge[k] > 1) ? f->edge[k] * finer : 1 + (f->edge[k] - 1) * finer;
         g.edge[k] = edge, nodes *= edge / f->edge[k];
     }
-    g.points *= nodes, g.cells *= more, g.evaluation *= more, g.pairs *= nodes, g.summed *= more;
-    g.facets *= more / finer, g.slaves *= more / finer, g.eliminated *= more * more / (finer * finer);
-    g.bonds[PG_NODES] *= nodes, g.bonds[PG_POINTS] *= more, g.bonds[PG_FACETS] *= more / finer;
+    g.count.points *= nodes, g.count.cells *= more, g.count.evaluation *= more, g.count.pairs *= nodes,
+        g.count.summed *= more;
+    g.count.facets *= more / finer, g.count.slaves *= more / finer,
+        g.count.eliminated *= more * more / (finer * finer);
+    g.count.bonds[PG_NODES] *= nodes, g.count.bonds[PG_POINTS] *= more,
+        g.count.bonds[PG_FACETS] *= more / finer;
     for (int k = 0; k < f->dim; k++) g.step[k] /= finer;
     dissect (f, &entries, &flops);
     dissect (&g, &g.factor_entries, &g.factor_flops);
     if (entries > 0) g.factor_entries *= known / entries, g.factor_flops *= known_flops / flops;
-    g.counted = g.analysed = 0;
+    g.is.counted = g.is.analysed = 0;
     pg_forecast_sum (&g);
     return g;
 }
@@ -385,19 +394,19 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
                                        pg_forecast_item (i), in_words (word, sizeof word, f->bytes[i]));
     double fit = pg_forecast_fitting (f, available);
     if (isfinite (fit)) snprintf (text, sizeof text, "; a spacing of %.3g m or more fits", fit);
-    if (!f->nodal && f->method->shape_functions) {
+    if (!f->is.nodal && f->method->shape_functions) {
         pg_forecast g = *f;
-        double share = f->bonds[PG_POINTS] > 0
-                           ? f->bonds[PG_NODES] / f->points * f->evaluation / f->bonds[PG_POINTS]
-                           : 1;
-        g.nodal = 1, g.evaluation = 0, g.bonds[PG_POINTS] = 0, g.pairs *= fmin (1, 0.55 * share),
-        g.factor_entries *= 0.55, g.analysed = 1;
+        double share = f->count.bonds[PG_POINTS] > 0 ? f->count.bonds[PG_NODES] / f->count.points
+                                                           * f->count.evaluation / f->count.bonds[PG_POINTS]
+                                                     : 1;
+        g.is.nodal = 1, g.count.evaluation = 0, g.count.bonds[PG_POINTS] = 0,
+        g.count.pairs *= fmin (1, 0.55 * share), g.factor_entries *= 0.55, g.is.analysed = 1;
         pg_forecast_sum (&g);
         alternative (&g, "method.integration: nodal needs about", available, text, sizeof text);
     }
     if (f->linear) {
         pg_forecast g = *f;
-        g.automatic = 0;
+        g.is.automatic = 0;
         g.linear = NULL;
         pg_forecast_sum (&g);
         char words[80];
@@ -407,12 +416,12 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
     size_t at = strlen (text);
     if (f->dim == 3)
         snprintf (text + at, sizeof text - at, "; a plane model (dimension: 2) has about %.2g points",
-                  pow (f->points, 2.0 / 3));
+                  pow (f->count.points, 2.0 / 3));
     return pg_error (PG_E_LIMIT, PG_HERE,
                      "the run would need about %s of memory, and %s are available: %.4g points at spacing "
                      "%.4g m, %.4g bonds, "
                      "%.3g entries in the stiffness matrix (%s)%s",
                      in_words (need, sizeof need, f->peak), in_words (have, sizeof have, available),
-                     f->points, f->spacing, f->bonds[0] + f->bonds[1] + f->bonds[2], f->matrix_entries, items,
-                     text);
+                     f->count.points, f->spacing, f->count.bonds[0] + f->count.bonds[1] + f->count.bonds[2],
+                     f->matrix_entries, items, text);
 }

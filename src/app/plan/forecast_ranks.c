@@ -33,34 +33,35 @@ static double coarse_bytes (const pg_forecast *f, double couplings, double total
 static void add_levels (pg_forecast *g, const pg_forecast *f, double owned, double total)
 {
     double d = f->dim, m = f->dim + f->rotations,
-           couplings = f->points > 0 ? 2 * f->pairs / f->points - 1 : 0;
-    int off = f->listed || f->irregular;
+           couplings = f->count.points > 0 ? 2 * f->count.pairs / f->count.points - 1 : 0;
+    int off = f->is.listed || f->is.irregular;
     if (off && f->method->shape_functions) couplings = pow (3, d);  /* nodes next to one in elements */
     if (off) add (g, PG_BYTES_MATRIX, loaded + of_levels[f->dim] * 12 * m * m * couplings * owned);
     else add (g, PG_BYTES_MATRIX, coarse_bytes (f, couplings, total, fmax (1, total / owned)));
-    if (!off && f->dynamic && !f->method->shape_functions)
-        add (g, PG_BYTES_VECTORS, g->points * (32 * m + 16 * pow (2, d) + 16));
+    if (!off && f->is.dynamic && !f->method->shape_functions)
+        add (g, PG_BYTES_VECTORS, g->count.points * (32 * m + 16 * pow (2, d) + 16));
 }
 
 pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part, double total, int collects)
 {
     pg_forecast g = *f;
-    double d = f->dim, more = (part->owned + part->ghosts) / f->points;
-    g.points *= more, g.cells *= more, g.evaluation *= more, g.facets *= more, g.pairs *= more;
-    g.summed *= more, g.patched *= more, g.slaves *= more, g.columns *= more;
-    for (int s = 0; s < PG_BOND_SETS; s++) g.bonds[s] *= more;
-    g.pictures = 0;                                    /* none are drawn of a body that nobody holds */
-    g.scattered = 0;                                   /* elements on all nodes */
-    g.automatic = 0, g.linear = NULL;
+    double d = f->dim, more = (part->owned + part->ghosts) / f->count.points;
+    g.count.points *= more, g.count.cells *= more, g.count.evaluation *= more, g.count.facets *= more,
+        g.count.pairs *= more;
+    g.count.summed *= more, g.count.patched *= more, g.count.slaves *= more, g.count.columns *= more;
+    for (int s = 0; s < PG_BOND_SETS; s++) g.count.bonds[s] *= more;
+    g.is.pictures = 0;                                    /* none are drawn of a body that nobody holds */
+    g.is.scattered = 0;                                   /* elements on all nodes */
+    g.is.automatic = 0, g.linear = NULL;
     pg_forecast_sum (&g);
     add (&g, PG_BYTES_PROGRAM, started);
-    add (&g, PG_BYTES_POINTS, f->mesh);
-    if (!f->explicit_) add_levels (&g, f, part->owned, total);
+    add (&g, PG_BYTES_POINTS, f->count.mesh);
+    if (!f->is.explicit_) add_levels (&g, f, part->owned, total);
     /* one rank puts the fields of all together at the end: places, volumes, numbers, and what is shown of
      * each field, of which half have a component along each axis */
-    if (collects) add (&g, PG_BYTES_RESULTS, total * (16 * d + 36 + 4 * (d + 1) * (f->fields + 1)));
+    if (collects) add (&g, PG_BYTES_RESULTS, total * (16 * d + 36 + 4 * (d + 1) * (f->count.fields + 1)));
     /* at the start each has all points of a file for a moment */
-    add (&g, PG_BYTES_POINTS, fmax (0, g.bytes[PG_BYTES_PROGRAM] + f->reading - g.peak));
+    add (&g, PG_BYTES_POINTS, fmax (0, g.bytes[PG_BYTES_PROGRAM] + f->count.reading - g.peak));
     return g;
 }
 

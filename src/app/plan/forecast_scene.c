@@ -69,19 +69,20 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     const char *linear = pg_scene_text (scene, "solver.linear");
     double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"),
            dt = pg_scene_number (scene, "solver.dt");
-    f->automatic = !linear || is (linear, "auto");
-    f->dynamic = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
-    f->explicit_ = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT);
-    f->linear = f->automatic ? pg_linear_usual (1, 1) : pg_linear_find (linear);
+    f->is.automatic = !linear || is (linear, "auto");
+    f->is.dynamic = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
+    f->is.explicit_ = !pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_IMPLICIT);
+    f->linear = f->is.automatic ? pg_linear_usual (1, 1) : pg_linear_find (linear);
     if (f->linear && !f->linear->factors) f->linear = NULL;
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
     const char *stepping = pg_scene_text (scene, "solver.stepping");
-    f->elements = f->method->shape_functions && !pg_scene_bool (scene, "solver.plain")
+    f->is.elements = f->method->shape_functions && !pg_scene_bool (scene, "solver.plain")
                   && !is (pg_scene_text (scene, "solver.preconditioner"), "jacobi");
-    f->events = f->breaks && !f->dynamic && !pg_scene_bool (scene, "solver.plain") && !is (stepping, "fixed");
+    f->is.events = f->is.breaks && !f->is.dynamic && !pg_scene_bool (scene, "solver.plain")
+                   && !is (stepping, "fixed");
     const char *contact = pg_scene_text (scene, "contact.kind");
-    if (f->method->shape_functions && !f->explicit_ && contact && !is (contact, "none"))
-        f->pressed = is (contact, "friction") ? 2 : 1;
+    if (f->method->shape_functions && !f->is.explicit_ && contact && !is (contact, "none"))
+        f->is.pressed = is (contact, "friction") ? 2 : 1;
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 
@@ -100,22 +101,23 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
     const char *criterion = pg_scene_text (scene, "failure.criterion");
     const pg_criterion_type *type = criterion ? pg_criterion_find (criterion) : NULL;
     const pg_integration_type *integration = pg_integration_of (scene, type && type->needs & PG_NEEDS_FACETS);
-    f->matrixless = f->method->long_range && f->method->long_range (scene);
+    f->is.matrixless = f->method->long_range && f->method->long_range (scene);
     f->rotations = f->method->rotations[f->dim];
-    f->by_list = !f->method->shape_functions
+    f->is.by_list = !f->method->shape_functions
                  && (is (pg_scene_text (scene, "method.evaluation"), "list")
                      || is (pg_scene_text (scene, "method.surface_correction"), "volume")
                      || pg_scene_number (scene, "perturb.amount") > 0
                      || pg_scene_count (scene, "blocks") > 1);
-    f->nodal = !f->method->shape_functions || (integration && integration->at_nodes);
+    f->is.nodal = !f->method->shape_functions || (integration && integration->at_nodes);
     /* until bonds are counted */
-    f->summed = f->method->shape_functions && integration && integration->consistent;
-    f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
-    f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
-    f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
-    f->irregular = pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")
+    f->count.summed = f->method->shape_functions && integration && integration->consistent;
+    f->is.breaks = pg_scene_given (scene, "failure")
+                   && !is (pg_scene_text (scene, "failure.criterion"), "none");
+    f->count.fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
+    f->is.pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
+    f->is.irregular = pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")
                    || pg_scene_number (scene, "perturb.amount") > 0;
-    f->shared = !(f->summed > 0) && !f->breaks && shares_rows (f, scene);
+    f->is.shared = !(f->count.summed > 0) && !f->is.breaks && shares_rows (f, scene);
     read_solver (f, scene);
 }
 
@@ -132,9 +134,9 @@ static double lattice_step (const pg_lattice *l)
 static void widen (pg_forecast *f, double reach)
 {
     double wider = pow ((reach + 0.5) / reach, f->dim);
-    if (!(f->summed > 0)) return;
-    f->summed = f->bonds[PG_POINTS] * (wider + 1);
-    f->pairs *= pow ((reach + 0.25) / reach, f->dim);
+    if (!(f->count.summed > 0)) return;
+    f->count.summed = f->count.bonds[PG_POINTS] * (wider + 1);
+    f->count.pairs *= pow ((reach + 0.25) / reach, f->dim);
 }
 
 /* Cut cells, of which half have their centre outside, have more points than whole ones: 1.23 and 1.6 times
@@ -147,8 +149,8 @@ static void add_cut (pg_forecast *f, const pg_tally *t, double finer, int consis
     double crossed = t->crossed * pow (finer, f->dim - 1), per = points[consistent != 0][f->dim - 1];
     double more = t->cells > 0 ? crossed * (per - 0.5) * t->evaluation / t->cells : 0,
            seen = consistent && f->dim == 3 ? 0.85 : 0.75;
-    if (t->evaluation > 0) f->bonds[PG_POINTS] += seen * more * t->point_bonds / t->evaluation;
-    f->cells += 0.5 * crossed, f->evaluation += more;
+    if (t->evaluation > 0) f->count.bonds[PG_POINTS] += seen * more * t->point_bonds / t->evaluation;
+    f->count.cells += 0.5 * crossed, f->count.evaluation += more;
 }
 
 /* Counts of the lattice at hand, which has steps `finer` times as wide as the scene's: bodies grow with
@@ -161,21 +163,21 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
            per = 1, sites = 1;
     for (int k = 0; k + 1 < f->dim; k++)
         per *= t->crossed > 0 ? fmax (how->order, how->approx->order + 1) : how->approx->order + 1;
-    f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more,
-    f->pairs = t->pairs * more;
-    f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
+    f->count.points = t->points * more, f->count.cells = t->cells * more,
+    f->count.evaluation = t->evaluation * more, f->count.pairs = t->pairs * more;
+    f->count.bonds[PG_NODES] = t->node_bonds * more, f->count.bonds[PG_POINTS] = t->point_bonds * more;
     int consistent = f->method->shape_functions && t->crossed > 0
                      && pg_integration_of (scene, 1)->consistent;
     add_cut (f, t, finer, consistent);
-    if (consistent) f->summed = 1, f->shared = 0;
-    f->facets = !f->method->shape_functions ? 0 : facets * per;
+    if (consistent) f->count.summed = 1, f->is.shared = 0;
+    f->count.facets = !f->method->shape_functions ? 0 : facets * per;
     widen (f, how->approx->horizon / lattice_step (l));
-    f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
-    f->order = how->approx->order, f->interpolates = how->approx->type && how->approx->type->interpolates;
-    f->behind = how->centred;
-    f->scattered = f->nodal && pg_scene_number (scene, "perturb.amount") > 0;
+    f->count.bonds[PG_FACETS] = f->count.facets * 0.6 * t->node_bonds / t->points;
+    f->order = how->approx->order, f->is.interpolates = how->approx->type && how->approx->type->interpolates;
+    f->is.behind = how->centred;
+    f->is.scattered = f->is.nodal && pg_scene_number (scene, "perturb.amount") > 0;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
-    f->counted = !t->sampled && finer == 1 && t->crossed == 0;
+    f->is.counted = !t->sampled && finer == 1 && t->crossed == 0;
     for (int k = 0; k < 3; k++)
         f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
     /* a body that fills its box by half is a smaller box */
@@ -225,7 +227,7 @@ static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_
     pg_counting how = { &l,
                         &a,
                         is (pg_scene_text (scene, "lattice"), "cells"),
-                        f->nodal,
+                        f->is.nodal,
                         order,
                         is (pg_scene_text (scene, "cells"), "cut") ? body : NULL,
                         !f->method->shape_functions ? &bonds : NULL };
@@ -246,26 +248,26 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     pg_status status = PG_OK;
     const pg_mesh *m = &part->mesh;
     double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], count[PG_ELEMENTS],
-        facets = 0, all = 0, each = f->bonds[PG_NODES] / f->points;
+        facets = 0, all = 0, each = f->count.bonds[PG_NODES] / f->count.points;
     int usual = a->order + 1 + 2 * pg_mesh_body_halved (part), order = usual;
     if (pg_scene_given (scene, "method.gauss_points"))
         order = (int) pg_scene_integer (scene, "method.gauss_points");
     size_t n = 0;
     int *element = NULL, *side = NULL, node[9];
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
-    f->cells = (double) m->n, f->evaluation = 0;
+    f->count.cells = (double) m->n, f->count.evaluation = 0;
     /* pg_mesh, pg_mesh_body: nodes, elements and their nodes */
-    f->mesh = 32 * (double) m->nnode + 25 * (double) m->n + 4 * (double) m->start[m->n];
-    for (size_t e = 0; e < m->n && !f->nodal; e++) f->evaluation += count[m->kind[e]];
-    f->bonds[PG_POINTS] = f->evaluation * each;
+    f->count.mesh = 32 * (double) m->nnode + 25 * (double) m->n + 4 * (double) m->start[m->n];
+    for (size_t e = 0; e < m->n && !f->is.nodal; e++) f->count.evaluation += count[m->kind[e]];
+    f->count.bonds[PG_POINTS] = f->count.evaluation * each;
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
     for (size_t k = 0; k < n; k++)
         all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
     /* a side each */
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
-    f->facets = !f->method->shape_functions ? 0 : fmin (facets, all),
-    f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+    f->count.facets = !f->method->shape_functions ? 0 : fmin (facets, all),
+    f->count.bonds[PG_FACETS] = f->count.facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;
@@ -302,7 +304,7 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
          * there twice are found, with a copy to sort it (geometry/cloud/body/points_file.c): measured on 8
          * ranks
          * */
-        f->reading = 2 * bytes_of_file (scene, "points") + (132 + 16 * (double) c.dim) * (double) c.n;
+        f->count.reading = 2 * bytes_of_file (scene, "points") + (132 + 16 * (double) c.dim) * (double) c.n;
     }
     PG_TRY (pg_method_approx (&a, f->method, scene, c.h));
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
@@ -313,19 +315,19 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
         a.horizon += 0.5 * c.h;
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
     PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
-    f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
-    if (!part.mesh.n) f->nodal = 1;
-    f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
+    f->spacing = c.h, f->horizon = a.horizon, f->count.points = (double) c.n;
+    if (!part.mesh.n) f->is.nodal = 1;
+    f->count.bonds[PG_NODES] = (double) near.start[n] / (double) n * f->count.points;
     double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
     if (!f->method->shape_functions)
-        coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
-    f->pairs = 0.5 * f->points * (coupled + 1);
-    f->order = a.order, f->interpolates = a.type && a.type->interpolates;
+        coupled = f->count.bonds[PG_NODES] / f->count.points, f->count.bonds[PG_NODES] -= f->count.points;
+    f->count.pairs = 0.5 * f->count.points * (coupled + 1);
+    f->order = a.order, f->is.interpolates = a.type && a.type->interpolates;
     f->width = 0.93 * radius_of (f->dim, coupled);
     for (int k = 0; k < 3; k++)
         f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];
-    for (int k = 0; k < f->dim; k++) f->edge[k] *= pow (f->points / side, 1.0 / f->dim);
-    f->counted = stride == 1;
+    for (int k = 0; k < f->dim; k++) f->edge[k] *= pow (f->count.points / side, 1.0 / f->dim);
+    f->is.counted = stride == 1;
     if (part.mesh.n) PG_TRY (count_elements (f, scene, &part, &a));
 done:
     pg_mesh_body_clear (&part);
@@ -353,7 +355,7 @@ pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene, const pg_m
     else PG_TRY (count_lattice (out, scene, &body));
     PG_TRY (pg_scene_verdict (scene));
     /* bonds that something parts are counted here */
-    if (body.n && pg_body_parts (&body, &(pg_mesh_body) { 0 }) > 0) out->counted = 0;
+    if (body.n && pg_body_parts (&body, &(pg_mesh_body) { 0 }) > 0) out->is.counted = 0;
     forecast_factor (out);
     pg_forecast_sum (out);
 done:

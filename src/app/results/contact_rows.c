@@ -30,8 +30,8 @@ pg_status pg_result_contact_create (pg_result *r, const result_marks *from)
     int space = r->problem->dim == 3;
     size_t count = space ? COLUMNS_SPACE : COLUMNS;
     const char *const *names = space ? columns_space : columns;
-    PG_TRY (from ? pg_table_open (&r->contact, path, count, names, from->contact)
-                 : pg_table_create (&r->contact, path, count, names));
+    PG_TRY (from ? pg_table_open (&r->table.contact, path, count, names, from->contact)
+                 : pg_table_create (&r->table.contact, path, count, names));
 done:
     return status;
 }
@@ -43,7 +43,7 @@ static pg_status write_space (pg_result *r, const pg_step *step, const pg_contac
         v->x[2],               v->normal[0], v->normal[1], v->normal[2],         v->area,     v->pressure,
         v->shear[0],           v->shear[1],  v->shear[2],  v->gap,               v->slip[0],  v->slip[1],
         v->slip[2],            (double) v->status, (double) v->platen };
-    return pg_table_row (r->contact, row);
+    return pg_table_row (r->table.contact, row);
 }
 
 pg_status pg_result_contact_write (pg_result *r, const pg_step *step)
@@ -52,7 +52,7 @@ pg_status pg_result_contact_write (pg_result *r, const pg_step *step)
     size_t n;
     const pg_contact_values *v = pg_solver_contact (r->solver, &n);
     int space = r->problem->dim == 3;
-    for (size_t k = 0; r->contact && k < n; k++) {
+    for (size_t k = 0; r->table.contact && k < n; k++) {
         if (space) {
             PG_TRY (write_space (r, step, &v[k]));
             continue;
@@ -62,10 +62,10 @@ pg_status pg_result_contact_write (pg_result *r, const pg_step *step)
                                       v[k].arc,              v[k].x[0],   v[k].x[1],    v[k].length,
                                       v[k].pressure,         v[k].shear[0],  v[k].gap,     v[k].slip[0],
                                       (double) v[k].status, (double) v[k].platen };
-        PG_TRY (pg_table_row (r->contact, row));
+        PG_TRY (pg_table_row (r->table.contact, row));
     }
 done:
     return status;
 }
 
-void pg_result_contact_close (pg_result *r) { pg_table_close (&r->contact); }
+void pg_result_contact_close (pg_result *r) { pg_table_close (&r->table.contact); }

@@ -106,22 +106,22 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
         snprintf (name[n++], sizeof *name, "%s", unstable_columns[k]);
     if (p->boundary.nstage) snprintf (name[n++], sizeof *name, "stage [1]");
     for (size_t k = 0; k < n; k++) column[k] = name[k];
-    r->ncolumn = n;
-    PG_ALLOC (r->row, n);
+    r->table.ncolumn = n;
+    PG_ALLOC (r->table.row, n);
     PG_ALLOC (r->u, p->cloud.n * 6);
     PG_ALLOC (r->here, 2 * p->boundary.ngauge);
     memset (r->here, -1, 2 * p->boundary.ngauge);
     snprintf (path, sizeof path, "%s/history.csv", r->folder);
-    PG_TRY (from ? pg_table_open (&r->history, path, n, column, from->history)
-                 : pg_table_create (&r->history, path, n, column));
+    PG_TRY (from ? pg_table_open (&r->table.history, path, n, column, from->history)
+                 : pg_table_create (&r->table.history, path, n, column));
     static const char *const event_columns[] = {
         "step [1]",      "load_factor [1]", "time [s]",        "x [m]",
         "y [m]",         "z [m]",           "utilisation [1]", "energy_of_step [J]",
         "bond_code [1]", "kind_code [1]",   "bond [name]",     "kind [name]"
     };
     snprintf (path, sizeof path, "%s/events.csv", r->folder);
-    PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, event_columns, from->events)
-                 : pg_table_create (&r->events, path, EVENT_COLUMNS, event_columns));
+    PG_TRY (from ? pg_table_open (&r->table.events, path, EVENT_COLUMNS, event_columns, from->events)
+                 : pg_table_create (&r->table.events, path, EVENT_COLUMNS, event_columns));
     PG_TRY (pg_result_paths_create (r, from));
     PG_TRY (pg_result_contact_create (r, from));
 done:
@@ -282,9 +282,9 @@ static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const 
             if (!isnan (number[k])) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
         }
         memcpy (before, number, sizeof before);
-        PG_TRY (pg_table_line_later (r->events, cell));
+        PG_TRY (pg_table_line_later (r->table.events, cell));
     }
-    PG_TRY (pg_table_write (r->events));
+    PG_TRY (pg_table_write (r->table.events));
 done:
     return status;
 }
@@ -349,8 +349,8 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     const double *moved, *turned;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    r->row[n++] = pg_result_once ((double) step->number), r->row[n++] = pg_result_once (step->time),
-    r->row[n++] = pg_result_once (step->factor);
+    r->table.row[n++] = pg_result_once ((double) step->number),
+    r->table.row[n++] = pg_result_once (step->time), r->table.row[n++] = pg_result_once (step->factor);
     PG_TRY (move_points (r, state, &moved, &turned));
     for (size_t l = 0; l < p->boundary.nload; l++) {
         const pg_load *load = &pg_solver_loads (r->solver)[l];
@@ -363,10 +363,10 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             PG_TRY (moved_by (p, load, k, r->dynamic ? step->time : step->factor, moved, turned,
                               on_facets ? facets : NULL, &u));
             if ((int) l == c->load && k == c->component) x = n + 1, y = n;
-            r->row[n++] = f, r->row[n++] = u;
+            r->table.row[n++] = f, r->table.row[n++] = u;
         }
         for (int k = first_moment (p, l); k < 3; k++)
-            r->row[n++] = step->reaction ? step->reaction[3 * (p->boundary.nload + l) + (size_t) k] : 0;
+            r->table.row[n++] = step->reaction ? step->reaction[3 * (p->boundary.nload + l) + (size_t) k] : 0;
     }
     const pg_platen_values *platen = pg_solver_platens (r->solver, &platens);
     for (size_t i = 0; i < p->boundary.nplaten; i++)
@@ -376,36 +376,37 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             if (!platen_has (p, k)) continue;
             double f = i < platens ? platen[i].force[k] : 0, u = i < platens ? platen[i].motion[k] : 0;
             if (load >= 0 && load == c->load && k == c->component) x = n + 1, y = n;
-            r->row[n++] = f, r->row[n++] = u;
+            r->table.row[n++] = f, r->table.row[n++] = u;
         }
-    const double *gauges = r->row + n;
-    for (size_t g = 0; g < p->boundary.ngauge; g++) PG_TRY (measure_gauge (r, state, g, &r->row[n++]));
-    PG_TRY (pg_result_averages_row (r, state, r->row + n, r->u));
+    const double *gauges = r->table.row + n;
+    for (size_t g = 0; g < p->boundary.ngauge; g++) PG_TRY (measure_gauge (r, state, g, &r->table.row[n++]));
+    PG_TRY (pg_result_averages_row (r, state, r->table.row + n, r->u));
     n += r->naverage;
-    PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
+    PG_TRY (pg_result_tips_row (r, state, step, r->table.row + n, r->u));
     n += r->tips.ntip;
-    PG_TRY (pg_result_paths_row (r, state, r->row + n));
-    PG_TRY (pg_result_crack_row (r, state, r->row + n + pg_result_paths_columns (r)));
+    PG_TRY (pg_result_paths_row (r, state, r->table.row + n));
+    PG_TRY (pg_result_crack_row (r, state, r->table.row + n + pg_result_paths_columns (r)));
     /* of cracks every rank knows the whole */
     for (size_t end = n + pg_result_paths_columns (r) + pg_result_crack_columns (r); n < end; n++)
-        r->row[n] = pg_result_once (r->row[n]);
-    r->row[n++] = report->energy.strain, r->row[n++] = report->energy.kinetic,
-    r->row[n++] = report->energy.external;
-    r->row[n++] = report->energy.dissipated, r->row[n++] = (double) report->broken,
-    r->row[n++] = pg_result_once ((double) step->iterations);
-    r->row[n++] = pg_result_once (step->residual), r->row[n++] = pg_result_once (step->utilisation),
-    r->row[n++] = pg_result_once (step->event), r->row[n++] = pg_result_once (step->level);
+        r->table.row[n] = pg_result_once (r->table.row[n]);
+    r->table.row[n++] = report->energy.strain, r->table.row[n++] = report->energy.kinetic,
+    r->table.row[n++] = report->energy.external;
+    r->table.row[n++] = report->energy.dissipated, r->table.row[n++] = (double) report->broken,
+    r->table.row[n++] = pg_result_once ((double) step->iterations);
+    r->table.row[n++] = pg_result_once (step->residual),
+    r->table.row[n++] = pg_result_once (step->utilisation), r->table.row[n++] = pg_result_once (step->event),
+    r->table.row[n++] = pg_result_once (step->level);
     if (goes_unstable (r)) {
-        r->row[n++] = pg_result_once ((double) step->instability);
-        r->row[n++] = pg_result_once (step->motion);
-        r->row[n++] = report->energy.damping;
+        r->table.row[n++] = pg_result_once ((double) step->instability);
+        r->table.row[n++] = pg_result_once (step->motion);
+        r->table.row[n++] = report->energy.damping;
     }
-    if (p->boundary.nstage) r->row[n++] = pg_result_once ((double) step->stage);
-    PG_TRY (pg_ranks_sum (n, r->row));
+    if (p->boundary.nstage) r->table.row[n++] = pg_result_once ((double) step->stage);
+    PG_TRY (pg_ranks_sum (n, r->table.row));
     PG_TRY (pg_ranks_sum (1, &shared));
     if (pg_ranks_now ()) PG_TRY (pg_result_collect_broken (r, step, &nbroken, &collected));
-    if (c->load >= 0) PG_TRY (pg_result_curve_row (r, r->row[x], r->row[y], gauges, step));
-    PG_TRY (pg_table_row (r->history, r->row));
+    if (c->load >= 0) PG_TRY (pg_result_curve_row (r, r->table.row[x], r->table.row[y], gauges, step));
+    PG_TRY (pg_table_row (r->table.history, r->table.row));
     PG_TRY (event_rows (r, step, nbroken, collected ? collected : step->broken, shared));
     PG_TRY (pg_result_paths_write (r, state, step));
     PG_TRY (pg_result_contact_write (r, step));

@@ -404,4 +404,7 @@ done:
     return status;
 }
 
-const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
+const pg_estimate *pg_result_estimate (const pg_result *r)
+{
+    return r->error.estimated ? &r->error.estimate : NULL;
+}

@@ -44,7 +44,7 @@ static pg_status read_requests (pg_result *r, const pg_scene *scene)
     const char *name;
     int with_u = 0;
     r->pictures.magnify = pg_scene_number (scene, "output.magnify");
-    r->estimating = pg_scene_bool (scene, "output.estimate")
+    r->error.estimating = pg_scene_bool (scene, "output.estimate")
                     && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
     r->progress.interval = pg_scene_number (scene, "output.checkpoint");
     if (pg_scene_has (scene, "output.at.events")) f->every = pg_scene_integer (scene, "output.at.events");
@@ -142,8 +142,8 @@ result_marks pg_result_marks_now (const pg_result *r)
 {
     const result_tips *t = &r->tips;
     const result_fields *f = &r->fields;
-    result_marks m = { .history = pg_table_rows (r->history),
-                       .events = pg_table_rows (r->events),
+    result_marks m = { .history = pg_table_rows (r->table.history),
+                       .events = pg_table_rows (r->table.events),
         .moments = f->moments,
         .keep = f->output ? f->writer->keep (f->output) : 0,
         .next_broken = f->next_broken,
@@ -152,7 +152,7 @@ result_marks pg_result_marks_now (const pg_result *r)
         .pieces = t->pieces ? pg_table_rows (t->pieces) : 0,
         .tips = t->rows ? pg_table_rows (t->rows) : 0,
         .npiece = t->npiece,
-                       .contact = r->contact ? pg_table_rows (r->contact) : 0,
+                       .contact = r->table.contact ? pg_table_rows (r->table.contact) : 0,
         .stamp = r->progress.stamp,
         .time = f->time };
     return m;
@@ -278,9 +278,9 @@ static pg_status estimate (pg_result *r, const pg_state *state)
 {
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    if (!r->estimating || !force->estimate) return PG_OK;
-    pg_status status = force->estimate (self, state->d, &r->estimate, NULL);
-    r->estimated = status == PG_OK;
+    if (!r->error.estimating || !force->estimate) return PG_OK;
+    pg_status status = force->estimate (self, state->d, &r->error.estimate, NULL);
+    r->error.estimated = status == PG_OK;
     if (status != PG_E_MEMORY) return status;
     pg_solver_warn (r->solver, "the error of the stress could not be estimated: %.160s", pg_last_error ());
     return PG_OK;
@@ -366,8 +366,8 @@ void pg_result_free (pg_result **result)
     pg_result *r = *result;
     if (!r) return;
     if (r->fields.output) r->fields.writer->close (&r->fields.output);
-    pg_table_close (&r->history);
-    pg_table_close (&r->events);
+    pg_table_close (&r->table.history);
+    pg_table_close (&r->table.events);
     pg_result_paths_close (r);
     pg_result_contact_close (r);
     pg_result_unlock (r->folder, &r->lock);
@@ -377,7 +377,7 @@ void pg_result_free (pg_result **result)
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
     pg_result_tips_free (r);
-    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve.x), pg_free (r->curve.y),
+    pg_free (r->table.row), pg_free (r->u), pg_free (r->average), pg_free (r->curve.x), pg_free (r->curve.y),
         pg_free (r->curve.more);
     pg_free (r);
     *result = NULL;

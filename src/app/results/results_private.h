@@ -159,6 +159,18 @@ typedef struct {
     long      generation;
 } result_progress;
 
+/* The tables of a run. */
+typedef struct {
+    pg_table  *history, *events;
+    pg_table  *contact;                                /* contact.csv, or NULL */
+    size_t    ncolumn;                                 /* of history.csv */
+    double   *row;                                     /* scratch space: one row of it (ncolumn) */
+} result_tables;
+/* The estimate of the error: wanted; made. */
+typedef struct {
+    int       estimating, estimated;
+    pg_estimate estimate;
+} result_estimate;
 struct pg_result {
     char     folder[3072];
     char     whole[3200];                              /* the result folder, that of rank 0 */
@@ -175,21 +187,17 @@ struct pg_result {
     result_tips     tips;
     result_curve    curve;
     result_progress progress;
-    pg_table  *history, *events;
-    pg_table  *contact;                                /* contact.csv, or NULL */
-    size_t    nwritten, ncolumn;
+    result_tables table;
+    size_t    nwritten;
     char      written[MOST_PICTURES + 3][4096];
-    /* Scratch space: one row of history.csv (ncolumn), and two fields at the points (n x 6). */
-    double   *row, *u;
+    double   *u;                                       /* scratch space: two fields at the points (n x 6) */
     signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
     result_average *average;  size_t naverage;
     result_crack crack;
     /* output.crack_size: its size is a column of history.csv. */
     int       counting;
     pg_crack_statistics network;  /* of the cracks at the start */
-    /* An estimate of the error is wanted; it was made. */
-    int       estimating, estimated;
-    pg_estimate estimate;
+    result_estimate error;
     /* The reference of the scene; NULL: none. */
     pg_reference *reference;
     pg_errors errors;  int measured;

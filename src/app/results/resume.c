@@ -239,7 +239,8 @@ pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper
 pg_status pg_result_sync_rows (const pg_result *r)
 {
     pg_status status = PG_OK;
-    const pg_table *const all[] = { r->history, r->events, r->tips.pieces, r->tips.rows, r->contact };
+    const pg_table *const all[] = { r->table.history, r->table.events, r->tips.pieces, r->tips.rows,
+                                    r->table.contact };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) if (all[k]) PG_TRY (pg_table_sync (all[k]));
 done:
     return status;

@@ -16,7 +16,7 @@ pg_status pg_mesh_builder_create (pg_mesh_builder **out, const char *path)
     pg_status status = PG_OK;
     pg_mesh_builder *m = NULL;
     PG_ALLOC (m, 1);
-    PG_GROW (m->start, m->start_cap, 1);
+    PG_GROW (m->start, m->cap.start, 1);
     m->path = pg_strdup (path);
     if (!m->path) PG_FAIL (PG_E_MEMORY, "no memory for the name of a file");
 done:
@@ -35,8 +35,8 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
     pg_free (m->groups), pg_free (m->sets), pg_free (m->side_sets), pg_free (m->set_node),
         pg_free (m->side_element), pg_free (m->side);
     pg_free (m->passed), pg_free (m->foreign);
-    pg_free (m->index), pg_free (m->solid), pg_free (m->turned), pg_free (m->kept);
-    pg_id_table_clear (&m->nodes);
+    pg_free (m->made.index), pg_free (m->made.solid), pg_free (m->made.turned), pg_free (m->made.kept);
+    pg_id_table_clear (&m->made.nodes);
     pg_free (m);
     *builder = NULL;
 }
@@ -52,8 +52,8 @@ pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
             PG_FAIL (PG_E_FILE, "%s: node %ld: coordinate %d is %g; it must be a number below 1e%d", m->path,
                      id, a + 1, x[a], EXPONENT);
     if (m->nnode >= INT_MAX) PG_FAIL (PG_E_LIMIT, "%s: more than %d nodes", m->path, INT_MAX);
-    PG_GROW (m->node_id, m->node_cap, m->nnode + 1);
-    PG_GROW (m->x, m->x_cap, 3 * (m->nnode + 1));
+    PG_GROW (m->node_id, m->cap.node, m->nnode + 1);
+    PG_GROW (m->x, m->cap.x, 3 * (m->nnode + 1));
     m->node_id[m->nnode] = id;
     memcpy (m->x + 3 * m->nnode, x, 3 * sizeof *x);
     m->nnode++;
@@ -70,12 +70,12 @@ pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind,
         PG_FAIL (PG_E_USAGE, "%s: element %ld: there is no kind %d", m->path, id, (int) kind);
     if (m->n >= INT_MAX) PG_FAIL (PG_E_LIMIT, "%s: more than %d elements", m->path, INT_MAX);
     size_t nodes = (size_t) pg_element_types[kind].nodes, first = m->start[m->n];
-    PG_GROW (m->element_id, m->element_cap, m->n + 1);
-    PG_GROW (m->group, m->group_cap, m->n + 1);
-    PG_GROW (m->line, m->line_cap, m->n + 1);
-    PG_GROW (m->kind, m->kind_cap, m->n + 1);
-    PG_GROW (m->start, m->start_cap, m->n + 2);
-    PG_GROW (m->list, m->list_cap, first + nodes);
+    PG_GROW (m->element_id, m->cap.element, m->n + 1);
+    PG_GROW (m->group, m->cap.group, m->n + 1);
+    PG_GROW (m->line, m->cap.line, m->n + 1);
+    PG_GROW (m->kind, m->cap.kind, m->n + 1);
+    PG_GROW (m->start, m->cap.start, m->n + 2);
+    PG_GROW (m->list, m->cap.list, first + nodes);
     m->element_id[m->n] = id, m->group[m->n] = group, m->line[m->n] = line,
     m->kind[m->n] = (unsigned char) kind;
     memcpy (m->list + first, node, nodes * sizeof *node);
@@ -102,7 +102,7 @@ pg_status pg_mesh_builder_group (pg_mesh_builder *m, int dim, long group, const 
 {
     pg_status status = PG_OK;
     if (!*name) return PG_OK;
-    PG_GROW (m->groups, m->groups_cap, m->ngroup + 1);
+    PG_GROW (m->groups, m->cap.groups, m->ngroup + 1);
     mesh_group *g = &m->groups[m->ngroup++];
     g->dim = dim, g->group = group;
     copy_name (g->name, name);
@@ -123,7 +123,7 @@ static void name_list (mesh_list *l, const char *name, long id, size_t first)
 pg_status pg_mesh_builder_nodeset (pg_mesh_builder *m, const char *name, long id)
 {
     pg_status status = PG_OK;
-    PG_GROW (m->sets, m->set_cap, m->nset + 1);
+    PG_GROW (m->sets, m->cap.set, m->nset + 1);
     name_list (&m->sets[m->nset++], name, id, m->nset_node);
 done:
     return status;
@@ -134,7 +134,7 @@ pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node)
 {
     pg_status status = PG_OK;
     if (m->nset == 0) PG_FAIL (PG_E_USAGE, "%s: a node is added to a set before there is one", m->path);
-    PG_GROW (m->set_node, m->set_node_cap, m->nset_node + 1);
+    PG_GROW (m->set_node, m->cap.set_node, m->nset_node + 1);
     m->set_node[m->nset_node++] = node;
     m->sets[m->nset - 1].end = m->nset_node;
 done:
@@ -144,7 +144,7 @@ done:
 pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id)
 {
     pg_status status = PG_OK;
-    PG_GROW (m->side_sets, m->side_set_cap, m->nside_set + 1);
+    PG_GROW (m->side_sets, m->cap.side_set, m->nside_set + 1);
     name_list (&m->side_sets[m->nside_set++], name, id, m->nside);
 done:
     return status;
@@ -154,8 +154,8 @@ pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element, int sid
 {
     pg_status status = PG_OK;
     if (m->nside_set == 0) PG_FAIL (PG_E_USAGE, "%s: a side is added to a set before there is one", m->path);
-    PG_GROW (m->side_element, m->side_element_cap, m->nside + 1);
-    PG_GROW (m->side, m->side_cap, m->nside + 1);
+    PG_GROW (m->side_element, m->cap.side_element, m->nside + 1);
+    PG_GROW (m->side, m->cap.side, m->nside + 1);
     m->side_element[m->nside] = element, m->side[m->nside] = side;
     m->side_sets[m->nside_set - 1].end = ++m->nside;
 done:
@@ -174,7 +174,7 @@ pg_status pg_mesh_builder_pass (pg_mesh_builder *m, const char *format, ...)
     copy_text (clean, sizeof clean, words);
     while (k < m->npassed && strcmp (m->passed[k].what, clean) != 0) k++;
     if (k == m->npassed) {
-        PG_GROW (m->passed, m->passed_cap, m->npassed + 1);
+        PG_GROW (m->passed, m->cap.passed, m->npassed + 1);
         memset (&m->passed[m->npassed], 0, sizeof *m->passed);
         snprintf (m->passed[m->npassed++].what, sizeof m->passed->what, "%s", clean);
     }
@@ -196,7 +196,7 @@ pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const c
     size_t before = m->npassed;
     PG_TRY (pg_mesh_builder_pass (m, "elements %.30s%s%.40s", type, *block ? " of " : "", block));
     if (m->npassed == before) goto done;
-    PG_GROW (m->foreign, m->foreign_cap, m->nforeign + 1);
+    PG_GROW (m->foreign, m->cap.foreign, m->nforeign + 1);
     pg_mesh_foreign *f = &m->foreign[m->nforeign++];
     memset (f, 0, sizeof *f);
     copy_name (f->block, block);
@@ -295,7 +295,7 @@ pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
     pg_status status = PG_OK;
     int solid = 0;
     memset (out, 0, sizeof *out);
-    m->out = out;
+    m->made.out = out;
     for (size_t e = 0; e < m->n && !solid; e++) solid = pg_element_types[m->kind[e]].dim > 0;
     if (!solid && m->nforeign) PG_FAIL (PG_E_FILE, "%s", m->foreign[0].words);
     if (m->ngroup) pg_sort (m->groups, m->ngroup, sizeof *m->groups, by_group_and_name);

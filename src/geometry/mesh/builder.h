@@ -10,43 +10,14 @@ typedef struct { int dim; long group; char name[64]; } mesh_group;
 /* A set of the file: its entries first .. end - 1 in the list of all entries. */
 typedef struct { char name[64]; long id; size_t first, end; } mesh_list;
 
-/* Arrays grow by PG_GROW; each has its own capacity (..._cap). */
-struct pg_mesh_builder {
-    /* File, for messages. */
-    char      *path;
-    size_t     nnode, node_cap;
-    /* Numbers of the nodes (nnode). */
-    long      *node_id;
-    /* Positions (nnode x 3). */
-    double    *x;
-    size_t     x_cap;
-    /* Number of elements of all dimensions. */
-    size_t     n, element_cap, start_cap;
-    /* Number, group and line of the file of each element (n). */
-    long      *element_id, *group, *line;
-    size_t     group_cap, line_cap, kind_cap;
-    unsigned char *kind;
-    /* First entry of each element in `list` (n + 1). */
-    size_t    *start;
-    size_t     nlist, list_cap;
-    /* Numbers of the nodes of all elements (nlist). */
-    long      *list;
-    size_t     ngroup, groups_cap;
-    /* Names of groups (ngroup). */
-    mesh_group *groups;
-    size_t     nset, set_cap, nside_set, side_set_cap;
-    /* Node sets (nset) and side sets (nside_set) of the file. */
-    mesh_list *sets, *side_sets;
-    size_t     nset_node, set_node_cap, nside, side_cap, side_element_cap;
-    /* Entries of all node sets (nset_node); elements and sides of all side sets (nside). */
-    long      *set_node, *side_element;
-    int       *side;
-    size_t     npassed, passed_cap, nforeign, foreign_cap;
-    /* First element type meant for plane strain, "": none; what is passed over; elements of unknown types. */
-    char       plane_strain[32];
-    pg_mesh_passed  *passed;
-    pg_mesh_foreign *foreign;
-    /* From here on: filled while finishing. Largest dimension of all elements. */
+/* Capacities of the arrays that grow (PG_GROW), by their names. */
+typedef struct {
+    size_t node, x, element, start, group, line, kind, list, groups, set, side_set, set_node, side,
+        side_element, passed, foreign;
+} mesh_capacities;
+/* What pg_mesh_builder_finish makes of the numbers of the file. */
+typedef struct {
+    /* Largest dimension of all elements. */
     int        dim;
     /* Finds nodes by number. */
     pg_id_table   nodes;
@@ -61,6 +32,42 @@ struct pg_mesh_builder {
     int       *kept;
     /* The mesh that is being filled. */
     pg_mesh   *out;
+} mesh_finish;
+struct pg_mesh_builder {
+    /* File, for messages. */
+    char      *path;
+    mesh_capacities cap;
+    size_t     nnode;
+    /* Numbers of the nodes (nnode). */
+    long      *node_id;
+    /* Positions (nnode x 3). */
+    double    *x;
+    /* Number of elements of all dimensions. */
+    size_t     n;
+    /* Number, group and line of the file of each element (n). */
+    long      *element_id, *group, *line;
+    unsigned char *kind;
+    /* First entry of each element in `list` (n + 1). */
+    size_t    *start;
+    size_t     nlist;
+    /* Numbers of the nodes of all elements (nlist). */
+    long      *list;
+    size_t     ngroup;
+    /* Names of groups (ngroup). */
+    mesh_group *groups;
+    size_t     nset, nside_set;
+    /* Node sets (nset) and side sets (nside_set) of the file. */
+    mesh_list *sets, *side_sets;
+    size_t     nset_node, nside;
+    /* Entries of all node sets (nset_node); elements and sides of all side sets (nside). */
+    long      *set_node, *side_element;
+    int       *side;
+    size_t     npassed, nforeign;
+    /* First element type meant for plane strain, "": none; what is passed over; elements of unknown types. */
+    char       plane_strain[32];
+    pg_mesh_passed  *passed;
+    pg_mesh_foreign *foreign;
+    mesh_finish made;
 };
 
 /* Steps of pg_mesh_builder_finish, in this order: numbers become places, the dimension and repeated

@@ -59,7 +59,7 @@ static pg_status add_node (builder *b, size_t set, int node)
 static pg_status add_side (builder *b, size_t set, size_t e, int side)
 {
     pg_status status = PG_OK;
-    const pg_mesh *out = b->m->out;
+    const pg_mesh *out = b->m->made.out;
     int node[9], n = pg_element_types[pg_element_face (out->kind[e], side, node)].nodes;
     PG_TRY (add_pair (&b->sides, (uint64_t) b->final[set] << 34 | (uint64_t) e << 3 | (unsigned) side));
     for (int k = 0; k < n; k++) PG_TRY (add_node (b, set, out->node[out->start[e] + (size_t) node[k]]));
@@ -93,7 +93,7 @@ static int by_source (const void *p, const void *q)
 /* Elements that only name a set: those of lower dimension, and repetitions of solid ones. */
 static int names_a_set (const pg_mesh_builder *m, size_t e)
 {
-    return m->group[e] && m->solid[e] < 0;
+    return m->group[e] && m->made.solid[e] < 0;
 }
 
 /* One set for each group of such elements. */
@@ -197,21 +197,21 @@ static pg_status same_nodes (const builder *b, const pg_id_table *elements, size
 {
     pg_status status = PG_OK;
     const pg_mesh_builder *m = b->m;
-    const pg_mesh *out = m->out;
+    const pg_mesh *out = m->made.out;
     const mesh_list *nodes = &m->sets[s], *sides = &m->side_sets[t];
     size_t n = 0, nside = 0;
     int *own = NULL, *other = NULL;
     PG_ALLOC (own, nodes->end - nodes->first);
     PG_ALLOC (other, 9 * (sides->end - sides->first));
     for (size_t k = nodes->first; k < nodes->end; k++) {
-        long at = pg_id_table_find (&m->nodes, m->set_node[k]);
-        own[n++] = at < 0 ? -1 : m->kept[at];
+        long at = pg_id_table_find (&m->made.nodes, m->set_node[k]);
+        own[n++] = at < 0 ? -1 : m->made.kept[at];
     }
     for (size_t k = sides->first; k < sides->end; k++) {
         long e = pg_id_table_find (elements, m->side_element[k]);
         int corner[9], side = m->side[k];
         if (e < 0 || side < 0 || side >= pg_element_types[out->kind[e]].faces) continue;
-        if (m->turned[e]) side = mirrored_side (out->kind[e], side);
+        if (m->made.turned[e]) side = mirrored_side (out->kind[e], side);
         int count = pg_element_types[pg_element_face (out->kind[e], side, corner)].nodes;
         for (int i = 0; i < count; i++) other[nside++] = out->node[out->start[e] + (size_t) corner[i]];
     }
@@ -267,11 +267,11 @@ static pg_status add_node_sets (builder *b)
     const pg_mesh_builder *m = b->m;
     for (size_t s = 0; s < m->nset; s++)
         for (size_t k = m->sets[s].first; k < m->sets[s].end; k++) {
-            long at = pg_id_table_find (&m->nodes, m->set_node[k]);
+            long at = pg_id_table_find (&m->made.nodes, m->set_node[k]);
             if (at < 0)
                 PG_FAIL (PG_E_FILE, "%s: node set '%s': node %ld is not in the file", m->path,
                          m->sets[s].name, m->set_node[k]);
-            PG_TRY (add_node (b, s, m->kept[at]));
+            PG_TRY (add_node (b, s, m->made.kept[at]));
         }
 done:
     return status;
@@ -289,14 +289,14 @@ static pg_status add_side_sets (builder *b, const pg_id_table *elements)
             if (e < 0)
                 PG_FAIL (PG_E_FILE, "%s: side set '%s': element %ld is none of the solid elements", m->path,
                          name, m->side_element[k]);
-            pg_element kind = m->out->kind[e];
+            pg_element kind = m->made.out->kind[e];
             if (m->side[k] < 0 || m->side[k] >= pg_element_types[kind].faces)
                 PG_FAIL (PG_E_FILE,
                          "%s: side set '%s': element %ld (%s) has no side %d; its sides are 1 to %d", m->path,
                          name, m->side_element[k], pg_element_types[kind].name, m->side[k] + 1,
                          pg_element_types[kind].faces);
             PG_TRY (add_side (b, m->nset + s, (size_t) e,
-                              m->turned[e] ? mirrored_side (kind, m->side[k]) : m->side[k]));
+                              m->made.turned[e] ? mirrored_side (kind, m->side[k]) : m->side[k]));
         }
 done:
     return status;
@@ -319,7 +319,7 @@ static pg_status add_lower_nodes (builder *b)
         if (!names_a_set (m, e)) continue;
         size_t set = set_of (b, e);
         for (size_t k = m->start[e]; k < m->start[e + 1]; k++)
-            PG_TRY (add_node (b, set, m->kept[m->index[k]]));
+            PG_TRY (add_node (b, set, m->made.kept[m->made.index[k]]));
     }
 done:
     return status;
@@ -356,10 +356,10 @@ static pg_status list_lower (const builder *b, size_t *n, lower **list, unsigned
         lower l = { { -1, -1, -1, -1 }, 0, 0 };
         int usable = 1;
         /* Only elements of one dimension less can be faces. */
-        if (!names_a_set (m, e) || type->dim != m->dim - 1) continue;
+        if (!names_a_set (m, e) || type->dim != m->made.dim - 1) continue;
         for (int k = 0; k < type->corners; k++) {
             /* Insertion sort of the corners; one that no solid element uses makes it no face. */
-            int v = m->kept[m->index[m->start[e] + (size_t) k]], at = k;
+            int v = m->made.kept[m->made.index[m->start[e] + (size_t) k]], at = k;
             for (; at > 0 && l.key[at - 1] > v; at--) l.key[at] = l.key[at - 1];
             l.key[at] = v, usable &= v >= 0;
         }
@@ -386,7 +386,7 @@ static int all_marked (const unsigned char *mark, const int key[4])
 static pg_status add_lower_sides (builder *b)
 {
     pg_status status = PG_OK;
-    const pg_mesh *out = b->m->out;
+    const pg_mesh *out = b->m->made.out;
     lower *list = NULL;
     unsigned char *mark = NULL;
     size_t n = 0;
@@ -436,7 +436,7 @@ static size_t run_end (const pairs *p, size_t first, size_t set, int shift)
 static pg_status put_nodes (builder *b)
 {
     pg_status status = PG_OK;
-    pg_mesh *out = b->m->out;
+    pg_mesh *out = b->m->made.out;
     PG_ALLOC (out->nodes, b->nfinal);
     for (size_t s = 0, at = 0; s < b->nfinal; s++) {
         /* Sorted pairs: members of one set follow one another, ascending. */
@@ -456,7 +456,7 @@ done:
 static pg_status put_sides (builder *b)
 {
     pg_status status = PG_OK;
-    pg_mesh *out = b->m->out;
+    pg_mesh *out = b->m->made.out;
     PG_ALLOC (out->sides, b->nfinal);
     for (size_t s = 0, at = 0; s < b->nfinal; s++) {
         size_t end = run_end (&b->sides, at, s, 34);
@@ -481,9 +481,9 @@ static pg_status check_ids (const pg_mesh_builder *m, pg_id_table *elements)
 {
     pg_status status = PG_OK;
     size_t twice;
-    PG_TRY (pg_id_table_build (elements, m->out->n, m->out->element_id, &twice));
-    if (twice < m->out->n)
-        PG_FAIL (PG_E_FILE, "%s: element %ld is there twice", m->path, m->out->element_id[twice]);
+    PG_TRY (pg_id_table_build (elements, m->made.out->n, m->made.out->element_id, &twice));
+    if (twice < m->made.out->n)
+        PG_FAIL (PG_E_FILE, "%s: element %ld is there twice", m->path, m->made.out->element_id[twice]);
 done:
     return status;
 }

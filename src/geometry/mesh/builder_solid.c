@@ -33,14 +33,14 @@ static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 
 static pg_status find_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
-    PG_ALLOC (m->index, m->nlist);
+    PG_ALLOC (m->made.index, m->nlist);
     for (size_t e = 0; e < m->n; e++)
         for (size_t k = m->start[e]; k < m->start[e + 1]; k++) {
-            m->index[k] = (int) pg_id_table_find (&m->nodes, m->list[k]);
+            m->made.index[k] = (int) pg_id_table_find (&m->made.nodes, m->list[k]);
             /* Elements that only name a set must have their nodes in the file, too. */
-            if (m->index[k] < 0) ELEMENT_FAIL (m, e, "node %ld is not in the file", m->list[k]);
-            for (size_t l = m->start[e]; dimension (m, e) == m->dim && l < k; l++)
-                if (m->index[l] == m->index[k])
+            if (m->made.index[k] < 0) ELEMENT_FAIL (m, e, "node %ld is not in the file", m->list[k]);
+            for (size_t l = m->start[e]; dimension (m, e) == m->made.dim && l < k; l++)
+                if (m->made.index[l] == m->made.index[k])
                     ELEMENT_FAIL (m, e,
                                   "node %ld is named twice; write collapsed elements as triangles, "
                                   "tetrahedra, pyramids or wedges",
@@ -63,7 +63,8 @@ static int same_nodes (const pg_mesh_builder *m, size_t e, size_t f)
     int a[PG_ELEMENT_NODES], b[PG_ELEMENT_NODES];
     size_t n = length (m, e);
     if (m->kind[e] != m->kind[f]) return 0;
-    memcpy (a, m->index + m->start[e], n * sizeof *a), memcpy (b, m->index + m->start[f], n * sizeof *b);
+    memcpy (a, m->made.index + m->start[e], n * sizeof *a),
+        memcpy (b, m->made.index + m->start[f], n * sizeof *b);
     pg_sort (a, n, sizeof *a, by_int), pg_sort (b, n, sizeof *b, by_int);
     return !memcmp (a, b, n * sizeof *a);
 }
@@ -87,20 +88,21 @@ static pg_status number_solids (pg_mesh_builder *m)
     while (slots < 2 * m->n) slots *= 2;
     PG_ALLOC (table, slots);
     PG_ALLOC (hash, m->n);
-    PG_ALLOC (m->solid, m->n);
+    PG_ALLOC (m->made.solid, m->n);
     for (size_t e = 0; e < m->n; e++) {
-        m->solid[e] = -1;
-        if (dimension (m, e) < m->dim) continue;
+        m->made.solid[e] = -1;
+        if (dimension (m, e) < m->made.dim) continue;
         /* The sum does not depend on the order of the nodes. */
-        for (size_t k = m->start[e]; k < m->start[e + 1]; k++) hash[e] += mix ((uint64_t) m->index[k] + 1);
+        for (size_t k = m->start[e]; k < m->start[e + 1]; k++)
+            hash[e] += mix ((uint64_t) m->made.index[k] + 1);
         size_t s = (size_t) mix (hash[e]) & (slots - 1);
         /* Open addressing: equal hashes are compared node by node. */
         while (table[s] && !(hash[table[s] - 1] == hash[e] && same_nodes (m, e, (size_t) table[s] - 1)))
             s = (s + 1) & (slots - 1);
-        m->solid[e] = table[s] ? -2 : n++;
+        m->made.solid[e] = table[s] ? -2 : n++;
         if (!table[s]) table[s] = (int) e + 1;
     }
-    m->out->n = (size_t) n;
+    m->made.out->n = (size_t) n;
 done:
     pg_free (table), pg_free (hash);
     return status;
@@ -111,18 +113,18 @@ pg_status builder_resolve (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     size_t twice;
-    for (size_t e = 0; e < m->n; e++) if (dimension (m, e) > m->dim) m->dim = dimension (m, e);
+    for (size_t e = 0; e < m->n; e++) if (dimension (m, e) > m->made.dim) m->made.dim = dimension (m, e);
     if (m->nnode == 0) PG_FAIL (PG_E_FILE, "%s: there are no nodes", m->path);
-    if (m->dim == 0)
+    if (m->made.dim == 0)
         PG_FAIL (PG_E_FILE,
                  "%s: points without elements: a mesh needs lines, triangles, quadrilaterals, tetrahedra, "
                  "hexahedra, pyramids or wedges",
                  m->path);
-    PG_TRY (pg_id_table_build (&m->nodes, m->nnode, m->node_id, &twice));
+    PG_TRY (pg_id_table_build (&m->made.nodes, m->nnode, m->node_id, &twice));
     if (twice < m->nnode) PG_FAIL (PG_E_FILE, "%s: node %ld is there twice", m->path, m->node_id[twice]);
     PG_TRY (find_nodes (m));
     PG_TRY (number_solids (m));
-    m->out->dim = m->dim;
+    m->made.out->dim = m->made.dim;
 done:
     return status;
 }
@@ -132,17 +134,18 @@ done:
 static pg_status keep_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
-    pg_mesh *out = m->out;
-    PG_ALLOC (m->kept, m->nnode);
+    pg_mesh *out = m->made.out;
+    PG_ALLOC (m->made.kept, m->nnode);
     for (size_t e = 0; e < m->n; e++)
-        for (size_t k = m->start[e]; m->solid[e] >= 0 && k < m->start[e + 1]; k++) m->kept[m->index[k]] = 1;
-    for (size_t k = 0; k < m->nnode; k++) m->kept[k] = m->kept[k] ? (int) out->nnode++ : -1;
+        for (size_t k = m->start[e]; m->made.solid[e] >= 0 && k < m->start[e + 1]; k++)
+            m->made.kept[m->made.index[k]] = 1;
+    for (size_t k = 0; k < m->nnode; k++) m->made.kept[k] = m->made.kept[k] ? (int) out->nnode++ : -1;
     PG_ALLOC (out->x, 3 * out->nnode);
     PG_ALLOC (out->node_id, out->nnode);
     for (size_t k = 0; k < m->nnode; k++) {
-        if (m->kept[k] < 0) continue;
-        memcpy (out->x + 3 * (size_t) m->kept[k], m->x + 3 * k, 3 * sizeof *m->x);
-        out->node_id[m->kept[k]] = m->node_id[k];
+        if (m->made.kept[k] < 0) continue;
+        memcpy (out->x + 3 * (size_t) m->made.kept[k], m->x + 3 * k, 3 * sizeof *m->x);
+        out->node_id[m->made.kept[k]] = m->node_id[k];
     }
 done:
     return status;
@@ -153,7 +156,7 @@ done:
 static pg_status check_plane (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
-    const pg_mesh *out = m->out;
+    const pg_mesh *out = m->made.out;
     double low[3], high[3], size = 0;
     for (int a = 0; a < 3; a++) {
         low[a] = high[a] = out->x[a];
@@ -178,19 +181,20 @@ done:
 static pg_status fill_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
-    pg_mesh *out = m->out;
+    pg_mesh *out = m->made.out;
     size_t total = 0;
-    for (size_t e = 0; e < m->n; e++) if (m->solid[e] >= 0) total += length (m, e);
+    for (size_t e = 0; e < m->n; e++) if (m->made.solid[e] >= 0) total += length (m, e);
     PG_ALLOC (out->kind, out->n);
     PG_ALLOC (out->start, out->n + 1);
     PG_ALLOC (out->node, total);
     PG_ALLOC (out->block, out->n);
     PG_ALLOC (out->element_id, out->n);
     for (size_t e = 0; e < m->n; e++) {
-        if (m->solid[e] < 0) continue;
-        size_t s = (size_t) m->solid[e], at = out->start[s];
+        if (m->made.solid[e] < 0) continue;
+        size_t s = (size_t) m->made.solid[e], at = out->start[s];
         out->kind[s] = m->kind[e], out->element_id[s] = m->element_id[e];
-        for (size_t k = m->start[e]; k < m->start[e + 1]; k++) out->node[at++] = m->kept[m->index[k]];
+        for (size_t k = m->start[e]; k < m->start[e + 1]; k++)
+            out->node[at++] = m->made.kept[m->made.index[k]];
         out->start[s + 1] = at;
     }
 done:
@@ -221,12 +225,12 @@ static double centre_size (const pg_mesh *out, size_t e, int *flat)
 static pg_status turn_outside_out (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
-    pg_mesh *out = m->out;
-    PG_ALLOC (m->turned, out->n);
+    pg_mesh *out = m->made.out;
+    PG_ALLOC (m->made.turned, out->n);
     for (size_t e = 0; e < m->n; e++) {
         int flat, old[PG_ELEMENT_NODES];
-        size_t s = (size_t) m->solid[e];
-        if (m->solid[e] < 0) continue;
+        size_t s = (size_t) m->made.solid[e];
+        if (m->made.solid[e] < 0) continue;
         double size = centre_size (out, s, &flat);
         if (flat)
             ELEMENT_FAIL (m, e, "is flat: it has no %s",
@@ -238,7 +242,7 @@ static pg_status turn_outside_out (pg_mesh_builder *m)
         const signed char *mirror = element_mirror (m->kind[e]);
         memcpy (old, out->node + out->start[s], n * sizeof *old);
         for (size_t k = 0; k < n; k++) out->node[out->start[s] + k] = old[mirror[k]];
-        m->turned[s] = 1;
+        m->made.turned[s] = 1;
     }
 done:
     return status;
@@ -257,7 +261,7 @@ static pg_status list_groups (const pg_mesh_builder *m, size_t *n, long **group)
     pg_status status = PG_OK;
     size_t cap = 0, k = 0;
     for (size_t e = 0; e < m->n; e++) {
-        if (m->solid[e] < 0 || (*n && (*group)[*n - 1] == m->group[e])) continue;
+        if (m->made.solid[e] < 0 || (*n && (*group)[*n - 1] == m->group[e])) continue;
         PG_GROW (*group, cap, *n + 1);
         (*group)[(*n)++] = m->group[e];
     }
@@ -272,7 +276,7 @@ done:
 static pg_status make_blocks (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
-    pg_mesh *out = m->out;
+    pg_mesh *out = m->made.out;
     size_t n = 0;
     long *group = NULL;
     PG_TRY (list_groups (m, &n, &group));
@@ -280,13 +284,13 @@ static pg_status make_blocks (pg_mesh_builder *m)
     out->nblock = n;
     for (size_t b = 0; b < n; b++) {
         out->blocks[b].id = (int) group[b];
-        builder_name (m, m->dim, group[b], out->blocks[b].name);
+        builder_name (m, m->made.dim, group[b], out->blocks[b].name);
     }
     for (size_t e = 0, b = 0; e < m->n; e++) {
-        if (m->solid[e] < 0) continue;
+        if (m->made.solid[e] < 0) continue;
         if (group[b] != m->group[e])
             b = (size_t) ((long *) pg_search (&m->group[e], group, n, sizeof *group, by_long) - group);
-        out->block[m->solid[e]] = (int) b;
+        out->block[m->made.solid[e]] = (int) b;
         out->blocks[b].n++;
     }
 done:

@@ -20,10 +20,10 @@ static pg_status find_places (pg_hats *h, const level *l)
     size_t dim = (size_t) l->dim;
     int at[3] = { 0 };
     PG_ALLOC (h->place, h->count * dim);
-    for (size_t v = 0; v < l->nvertex; v++) {
+    for (size_t v = 0; v < l->grid.nvertex; v++) {
         level_vertex_place (l, v, at);
-        for (size_t f = l->first[v]; f < l->first[v + 1]; f++)
-            for (size_t k = 0; k < dim; k++) h->place[f * dim + k] = l->low[k] + at[k] * l->step[k];
+        for (size_t f = l->coarse.first[v]; f < l->coarse.first[v + 1]; f++)
+            for (size_t k = 0; k < dim; k++) h->place[f * dim + k] = l->grid.low[k] + at[k] * l->grid.step[k];
     }
 done:
     return status;
@@ -38,16 +38,19 @@ pg_status pg_hats_create (pg_hats *out, const pg_hats_setting *s)
     memset (out, 0, sizeof *out);
     PG_ALLOC (l.mask, l.n);
     PG_TRY (level_space (&l, s->step));
-    *out = (pg_hats) { .n = l.n, .count = l.nfunction, .ncell = l.ncell, .corners = l.corners,
+    *out = (pg_hats) { .n = l.n, .count = l.grid.nfunction, .ncell = l.grid.ncell, .corners = l.corners,
                        .threads = l.threads };
     PG_TRY (find_places (out, &l));
-    out->function = l.function, out->value = l.weight, out->first = l.at, out->member = l.member,
-    out->share = l.share, out->cell_first = l.cell_start, out->cell_node = l.cell_node;
-    l.function = NULL, l.weight = NULL, l.at = NULL, l.member = NULL, l.share = NULL, l.cell_start = NULL,
-    l.cell_node = NULL;
+    out->function = l.coarse.function, out->value = l.coarse.weight, out->first = l.coarse.at,
+    out->member = l.coarse.member, out->share = l.coarse.share, out->cell_first = l.coarse.cell_start,
+    out->cell_node = l.coarse.cell_node;
+    l.coarse.function = NULL, l.coarse.weight = NULL, l.coarse.at = NULL, l.coarse.member = NULL,
+    l.coarse.share = NULL, l.coarse.cell_start = NULL, l.coarse.cell_node = NULL;
 done:
-    pg_free (l.mask), pg_free (l.cell), pg_free (l.first), pg_free (l.function), pg_free (l.weight);
-    pg_free (l.at), pg_free (l.member), pg_free (l.share), pg_free (l.cell_start), pg_free (l.cell_node);
+    pg_free (l.mask), pg_free (l.coarse.cell), pg_free (l.coarse.first), pg_free (l.coarse.function),
+        pg_free (l.coarse.weight);
+    pg_free (l.coarse.at), pg_free (l.coarse.member), pg_free (l.coarse.share), pg_free (l.coarse.cell_start),
+        pg_free (l.coarse.cell_node);
     if (status != PG_OK) pg_hats_clear (out);
     return status;
 }

@@ -20,15 +20,15 @@ static void level_clear (level *l, int finest)
                     l->value,
                     l->mask,
                     l->inverse,
-                    l->cell,
-                    l->cell_start,
-                    l->cell_node,
-                    l->first,
-                    l->function,
-                    l->weight,
-                    l->at,
-                    l->member,
-                    l->share,
+                    l->coarse.cell,
+                    l->coarse.cell_start,
+                    l->coarse.cell_node,
+                    l->coarse.first,
+                    l->coarse.function,
+                    l->coarse.weight,
+                    l->coarse.at,
+                    l->coarse.member,
+                    l->coarse.share,
                     l->r,
                     l->d,
                     l->q,
@@ -172,7 +172,7 @@ pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting
     level *l = &m->at[0];
     l->dim = s->dim, l->block = s->block, l->threads = s->threads > 1 ? s->threads : 1, l->n = s->n,
     l->ndof = s->n * (size_t) s->block;
-    l->x = s->x, l->aligned = s->aligned;
+    l->x = s->x, l->grid.aligned = s->aligned;
     l->A = s->A, l->rows = s->rows, l->part = s->subdomain;
     for (int k = 0; k < 3; k++) l->reach[k] = s->rows.reach;
     double step = (s->step > 0 ? s->step : 4.0 / 3) * s->rows.reach;
@@ -204,8 +204,8 @@ void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
     *info = (pg_multilevel_info) { .levels = m->count, .degree = m->degree, .applications = m->applications };
     for (int k = 0; k < m->count && k < 8; k++)
         info->unknowns[k] = m->at[k].ndof, info->top[k] = m->at[k].top;
-    for (size_t h = 0; m->count > 1 && h < m->at[0].nvertex; h++)
-        info->split += m->at[0].first[h + 1] - m->at[0].first[h] > 1;
+    for (size_t h = 0; m->count > 1 && h < m->at[0].grid.nvertex; h++)
+        info->split += m->at[0].coarse.first[h + 1] - m->at[0].coarse.first[h] > 1;
 }
 
 void pg_multilevel_describe_shared (const pg_multilevel *m, char *text, size_t size)

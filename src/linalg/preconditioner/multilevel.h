@@ -33,6 +33,32 @@ typedef struct {
 } level_ranks;
 
 /* One level: its matrix, and the functions that make the next level. */
+/* Grid of the coarse functions of a level. */
+typedef struct {
+    /* Its first vertex and its steps, m. */
+    double  low[3], step[3];
+    /* cells: cells along each axis. share_of: lattice steps in a cell where the nodes form a lattice, they
+     * are in the middle of their steps then, unless aligned; 0: no lattice. */
+    int     cells[3], share_of[3];
+    int     aligned;                                   /* as in pg_multilevel_setting, on all levels */
+    /* Numbers of cells, of hat functions, of functions. */
+    size_t  ncell, nvertex, nfunction;
+} level_grid;
+/* The coarse functions of a level: hat functions on the grid, parted where the matrix does not couple. */
+typedef struct {
+    /* Cell of each node (n). */
+    int    *cell;
+    /* Nodes of each cell, ascending: cell_start (ncell + 1), cell_node (n). */
+    size_t *cell_start;  int *cell_node;
+    /* First function of each hat function (nvertex + 1). */
+    size_t *first;
+    /* Function at each corner of a node's cell, as this node sees it; -1: none (n x corners). */
+    int    *function;
+    /* Its value at the node (n x corners). */
+    float  *weight;
+    /* Nodes of function f and its values there: entries at[f] .. at[f + 1] - 1 (at: nfunction + 1). */
+    size_t *at;  int *member;  float *share;
+} level_functions;
 typedef struct {
     /* Dimension, unknowns per node, threads, corners of a coarse cell (2^dim). */
     int     dim, block, threads, corners;
@@ -57,26 +83,8 @@ typedef struct {
     double *inverse;
     /* Upper bound of the eigenvalues of D^-1 A. */
     double  top;
-    /* Grid of the coarse functions: its first vertex and its steps, m. */
-    double  low[3], step[3];
-    /* cells: cells along each axis. share_of: lattice steps in a cell where the nodes form a lattice, they
-     * are in the middle of their steps then, unless aligned; 0: no lattice. */
-    int     cells[3], share_of[3];
-    int     aligned;                                   /* as in pg_multilevel_setting, on all levels */
-    /* Numbers of cells, of hat functions, of functions. */
-    size_t  ncell, nvertex, nfunction;
-    /* Cell of each node (n). */
-    int    *cell;
-    /* Nodes of each cell, ascending: cell_start (ncell + 1), cell_node (n). */
-    size_t *cell_start;  int *cell_node;
-    /* First function of each hat function (nvertex + 1). */
-    size_t *first;
-    /* Function at each corner of a node's cell, as this node sees it; -1: none (n x corners). */
-    int    *function;
-    /* Its value at the node (n x corners). */
-    float  *weight;
-    /* Nodes of function f and its values there: entries at[f] .. at[f + 1] - 1 (at: nfunction + 1). */
-    size_t *at;  int *member;  float *share;
+    level_grid grid;                                   /* of the coarse functions */
+    level_functions coarse;
     /* Vectors of the cycle (ndof): right-hand side and solution (on the finest level the caller's),
      * residual, step, A times step. */
     double *b, *z, *r, *d, *q;

@@ -85,9 +85,9 @@ static void restrict_functions (void *context, size_t first, size_t last, int th
     size_t block = (size_t) l->block;
     for (size_t f = first; f < last; f++) {
         double b[MOST_BLOCK] = { 0 };
-        for (size_t p = l->at[f]; p < l->at[f + 1]; p++) {
-            size_t i = (size_t) l->member[p];
-            double share = l->share[p];
+        for (size_t p = l->coarse.at[f]; p < l->coarse.at[f + 1]; p++) {
+            size_t i = (size_t) l->coarse.member[p];
+            double share = l->coarse.share[p];
             for (size_t k = 0; k < block; k++)
                 b[k] += share * (l->mask[i] >> k & 1 ? 0 : w->x[i * block + k]);
         }
@@ -105,8 +105,8 @@ static void correct_nodes (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) {
         double e[MOST_BLOCK] = { 0 };
         for (size_t c = 0; c < corners; c++) {
-            int f = l->function[i * corners + c];
-            double weight = l->weight[i * corners + c];
+            int f = l->coarse.function[i * corners + c];
+            double weight = l->coarse.weight[i * corners + c];
             if (f < 0) continue;
             for (size_t k = 0; k < block; k++) e[k] += weight * w->x[(size_t) f * block + k];
         }

@@ -92,14 +92,14 @@ static size_t neighbours_of (const level *f, const int *at, const int *reach, in
     int low[3] = { 0 }, high[3] = { 0 };
     for (int k = 0; k < f->dim; k++) {
         low[k] = at[k] > reach[k] ? at[k] - reach[k] : 0;
-        high[k] = at[k] + reach[k] < f->cells[k] ? at[k] + reach[k] : f->cells[k];
+        high[k] = at[k] + reach[k] < f->grid.cells[k] ? at[k] + reach[k] : f->grid.cells[k];
     }
-    size_t sy = (size_t) f->cells[0] + 1, sz = sy * (f->dim > 1 ? (size_t) f->cells[1] + 1 : 1);
+    size_t sy = (size_t) f->grid.cells[0] + 1, sz = sy * (f->dim > 1 ? (size_t) f->grid.cells[1] + 1 : 1);
     for (int z = low[2]; z <= high[2]; z++)
         for (int y = low[1]; y <= high[1]; y++) {
             size_t row = (size_t) z * sz + (size_t) y * sy;
-            for (size_t p = f->first[row + (size_t) low[0]]; p < f->first[row + (size_t) high[0] + 1];
-                 p++, count++)
+            for (size_t p = f->coarse.first[row + (size_t) low[0]];
+                 p < f->coarse.first[row + (size_t) high[0] + 1]; p++, count++)
                 if (out) out[count] = (int) p;
         }
     return count;
@@ -117,32 +117,34 @@ static pg_status make_pattern (level *c, const level *f)
      * plus the reach. On a lattice the outermost node under a hat function is known: one lattice step inside
      * its end, or half a one. */
     for (int k = 0; k < f->dim; k++) {
-        double share = f->share_of[k], inside = share > 0 ? (f->aligned ? 1 : 0.5) / share : 0;
-        reach[k] = share > 0 ? (int) floor (2 * (1 - inside) + f->reach[k] / f->step[k] + 1e-6)
-                             : (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
-        c->reach[k] = reach[k] * f->step[k];
+        double share = f->grid.share_of[k], inside = share > 0 ? (f->grid.aligned ? 1 : 0.5) / share : 0;
+        reach[k] = share > 0 ? (int) floor (2 * (1 - inside) + f->reach[k] / f->grid.step[k] + 1e-6)
+                             : (int) ceil (2 + f->reach[k] / f->grid.step[k] + 1e-6) - 1;
+        c->reach[k] = reach[k] * f->grid.step[k];
     }
     /* All functions of one hat function have the same couplings. */
     PG_ALLOC (c->start, c->n + 1);
-    for (size_t h = 0; h < f->nvertex; h++) {
-        if (f->first[h] == f->first[h + 1]) continue;
+    for (size_t h = 0; h < f->grid.nvertex; h++) {
+        if (f->coarse.first[h] == f->coarse.first[h + 1]) continue;
         level_vertex_place (f, h, at);
         size_t count = neighbours_of (f, at, reach, NULL);
-        for (size_t p = f->first[h]; p < f->first[h + 1]; p++) c->start[p + 1] = c->start[p] + count;
+        for (size_t p = f->coarse.first[h]; p < f->coarse.first[h + 1]; p++)
+            c->start[p + 1] = c->start[p] + count;
         if (count > c->rows.widest) c->rows.widest = count;
     }
     PG_ALLOC (c->node, c->start[c->n]);
     PG_ALLOC (c->value, c->start[c->n] * bb);
     PG_ALLOC (c->places, c->n * (size_t) c->dim);
-    c->aligned = f->aligned;
-    for (int k = 0; f->aligned && k < f->dim; k++) c->rows.lattice[k] = f->share_of[k] ? f->step[k] : 0;
+    c->grid.aligned = f->grid.aligned;
+    for (int k = 0; f->grid.aligned && k < f->dim; k++)
+        c->rows.lattice[k] = f->grid.share_of[k] ? f->grid.step[k] : 0;
     c->x = c->places;
-    for (size_t h = 0; h < f->nvertex; h++) {
+    for (size_t h = 0; h < f->grid.nvertex; h++) {
         level_vertex_place (f, h, at);
-        for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
+        for (size_t p = f->coarse.first[h]; p < f->coarse.first[h + 1]; p++) {
             neighbours_of (f, at, reach, c->node + c->start[p]);
             for (int k = 0; k < c->dim; k++)
-                c->places[p * (size_t) c->dim + (size_t) k] = f->low[k] + at[k] * f->step[k];
+                c->places[p * (size_t) c->dim + (size_t) k] = f->grid.low[k] + at[k] * f->grid.step[k];
         }
     }
 done:
@@ -198,8 +200,8 @@ static inline void spread_row (const summer *s, const level *f, size_t bb, size_
 {
     size_t corners = (size_t) f->corners;
     for (size_t e = 0; e < m; e++) {
-        const int *function = f->function + (size_t) node[e] * corners;
-        const float *weight = f->weight + (size_t) node[e] * corners;
+        const int *function = f->coarse.function + (size_t) node[e] * corners;
+        const float *weight = f->coarse.weight + (size_t) node[e] * corners;
         for (size_t c = 0; c < corners; c++)
             if (function[c] >= 0)
                 add_scaled (bb, weight[c], value + e * bb, s->spread + (size_t) s->where[function[c]] * bb);
@@ -211,9 +213,9 @@ static inline void gather_node (const summer *s, const level *f, size_t bb, size
 {
     size_t corners = (size_t) f->corners;
     for (size_t c = 0; c < corners; c++) {
-        int p = f->function[i * corners + c];
+        int p = f->coarse.function[i * corners + c];
         if (p < 0) continue;
-        double w = f->weight[i * corners + c], *to = s->sum + (size_t) s->row_of[p] * bb;
+        double w = f->coarse.weight[i * corners + c], *to = s->sum + (size_t) s->row_of[p] * bb;
         for (size_t q = 0; q < s->ncolumn; q++) add_scaled (bb, w, s->spread + q * bb, to + q * s->nrow * bb);
     }
 }
@@ -232,7 +234,7 @@ static pg_status find_rows (summer *s, const level *f, const int *node, size_t m
     s->nrow = s->ncolumn = 0;
     for (size_t e = 0; e < m; e++)
         for (int c = 0; c < f->corners && pg_owns (f->part, (size_t) node[e]); c++) {
-            int p = f->function[(size_t) node[e] * (size_t) f->corners + (size_t) c];
+            int p = f->coarse.function[(size_t) node[e] * (size_t) f->corners + (size_t) c];
             if (p < 0 || s->row_of[p] >= 0) continue;
             PG_GROW (s->row, s->cap_row, s->nrow + 1);
             s->row_of[p] = (int) s->nrow, s->row[s->nrow++] = p;
@@ -265,7 +267,7 @@ static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const 
         /* Masked unknowns neither give nor take. */
         if (f->mask[i] | f->mask[j]) blank_masked (f, f->mask[i], f->mask[j], value + e * bb);
         for (size_t c = 0; c < corners; c++) {
-            int p = f->function[j * corners + c];
+            int p = f->coarse.function[j * corners + c];
             if (p >= 0 && s->where[p] < 0) PG_TRY (new_column (s, bb, p));
         }
     }
@@ -317,18 +319,18 @@ done:
 static void cell_place (const level *f, size_t cell, int *at)
 {
     for (int k = 0; k < f->dim; k++)
-        at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
+        at[k] = (int) (cell % (size_t) f->grid.cells[k]), cell /= (size_t) f->grid.cells[k];
 }
 
 /* No node of the cell has a masked unknown, and no hat function at its corners is split. (Nodes that nobody
  * brings up to date are masked.) */
 static int is_plain (const level *f, size_t cell)
 {
-    for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++)
-        if (f->mask[f->cell_node[p]]) return 0;
+    for (size_t p = f->coarse.cell_start[cell]; p < f->coarse.cell_start[cell + 1]; p++)
+        if (f->mask[f->coarse.cell_node[p]]) return 0;
     for (int c = 0; c < f->corners; c++) {
         size_t vertex = level_vertex (f, cell, c);
-        if (f->first[vertex + 1] - f->first[vertex] > 1) return 0;
+        if (f->coarse.first[vertex + 1] - f->coarse.first[vertex] > 1) return 0;
     }
     return 1;
 }
@@ -343,10 +345,10 @@ static void classify (void *context, size_t first, size_t last, int thread)
     galerkin *g = context;
     const level *f = g->f;
     size_t full = 1;
-    for (int k = 0; k < f->dim; k++) full *= (size_t) f->share_of[k];
+    for (int k = 0; k < f->dim; k++) full *= (size_t) f->grid.share_of[k];
     for (size_t cell = first; cell < last; cell++) {
-        const int *node = f->cell_node + f->cell_start[cell];
-        size_t m = f->cell_start[cell + 1] - f->cell_start[cell], alike = 0;
+        const int *node = f->coarse.cell_node + f->coarse.cell_start[cell];
+        size_t m = f->coarse.cell_start[cell + 1] - f->coarse.cell_start[cell], alike = 0;
         if (!is_plain (f, cell)) continue;
         while (m == full && alike < m && pg_owns (f->part, (size_t) node[alike])
                && f->rows.alike (f->rows.context, (size_t) node[alike])) alike++;
@@ -360,10 +362,10 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
     int at[3] = { 0 }, far[3] = { 0 };
     cell_place (f, cell, at);
     for (int k = 0; k < f->dim; k++) {
-        far[k] = (int) ceil (f->reach[k] / f->step[k]);
-        if (at[k] < far[k] || at[k] + far[k] >= f->cells[k]) return 0;
+        far[k] = (int) ceil (f->reach[k] / f->grid.step[k]);
+        if (at[k] < far[k] || at[k] + far[k] >= f->grid.cells[k]) return 0;
     }
-    size_t sy = (size_t) f->cells[0], sz = sy * (f->dim > 1 ? (size_t) f->cells[1] : 1);
+    size_t sy = (size_t) f->grid.cells[0], sz = sy * (f->dim > 1 ? (size_t) f->grid.cells[1] : 1);
     /* All cells that its couplings can reach. */
     for (int z = at[2] - far[2]; z <= at[2] + far[2]; z++)
         for (int y = at[1] - far[1]; y <= at[1] + far[1]; y++)
@@ -376,12 +378,12 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
  * `first`. */
 static void offset_of (const level *f, const int *cell, int function, int *out)
 {
-    size_t low = 0, high = f->nvertex;
+    size_t low = 0, high = f->grid.nvertex;
     /* The last hat function whose functions start at or before this one. */
     while (high - low > 1) {
         /* first[] ascends with the vertices. */
         size_t middle = (low + high) / 2;
-        if (f->first[middle] <= (size_t) function) low = middle;
+        if (f->coarse.first[middle] <= (size_t) function) low = middle;
         else high = middle;
     }
     level_vertex_place (f, low, out);
@@ -393,8 +395,8 @@ static int function_at (const level *f, const int *cell, const int *offset)
 {
     size_t vertex = 0, stride = 1;
     for (int k = 0; k < f->dim; k++)
-        vertex += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
-    return (int) f->first[vertex];
+        vertex += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->grid.cells[k] + 1;
+    return (int) f->coarse.first[vertex];
 }
 
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread);
@@ -428,18 +430,18 @@ static pg_status find_alike (galerkin *g)
     pg_status status = PG_OK;
     const level *f = g->f;
     unsigned char *like = NULL;
-    size_t model = f->ncell;
-    for (int k = 0; k < f->dim; k++) if (!f->share_of[k]) return PG_OK;
+    size_t model = f->grid.ncell;
+    for (int k = 0; k < f->dim; k++) if (!f->grid.share_of[k]) return PG_OK;
     if (!f->rows.alike) return PG_OK;
-    PG_ALLOC (g->pattern.like, f->ncell);
-    PG_ALLOC (like, f->ncell);
-    pg_parallel (f->threads, f->ncell, classify, g);
-    for (size_t cell = 0; cell < f->ncell; cell++) {
+    PG_ALLOC (g->pattern.like, f->grid.ncell);
+    PG_ALLOC (like, f->grid.ncell);
+    pg_parallel (f->threads, f->grid.ncell, classify, g);
+    for (size_t cell = 0; cell < f->grid.ncell; cell++) {
         like[cell] = (g->pattern.like[cell] & ALIKE) && stands_free (f, g->pattern.like, cell);
-        if (like[cell] && model == f->ncell) model = cell;
+        if (like[cell] && model == f->grid.ncell) model = cell;
     }
-    memcpy (g->pattern.like, like, f->ncell);
-    if (model < f->ncell) PG_TRY (make_pattern_of (g, model));
+    memcpy (g->pattern.like, like, f->grid.ncell);
+    if (model < f->grid.ncell) PG_TRY (make_pattern_of (g, model));
 done:
     pg_free (like);
     return status;
@@ -469,8 +471,8 @@ static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
     pg_status status = PG_OK;
     const level *f = g->f;
     summer *s = &g->summer[thread];
-    const int *node = f->cell_node + f->cell_start[cell];
-    size_t m = f->cell_start[cell + 1] - f->cell_start[cell];
+    const int *node = f->coarse.cell_node + f->coarse.cell_start[cell];
+    size_t m = f->coarse.cell_start[cell + 1] - f->coarse.cell_start[cell];
     PG_TRY (find_rows (s, f, node, m));
     for (size_t e = 0; e < m && s->nrow; e++) {
         if (!pg_owns (f->part, (size_t) node[e])) continue;
@@ -516,12 +518,12 @@ static void sum_cells (void *context, size_t first, size_t last, int thread)
 static size_t cells_of_parity (const level *f, int parity, size_t *out)
 {
     size_t count = 0;
-    for (size_t cell = 0; cell < f->ncell; cell++) {
+    for (size_t cell = 0; cell < f->grid.ncell; cell++) {
         size_t rest = cell;
-        int same = f->cell_start[cell] < f->cell_start[cell + 1];
+        int same = f->coarse.cell_start[cell] < f->coarse.cell_start[cell + 1];
         for (int k = 0; k < f->dim; k++)
-            same = same && (int) (rest % (size_t) f->cells[k] % 2) == (parity >> k & 1),
-            rest /= (size_t) f->cells[k];
+            same = same && (int) (rest % (size_t) f->grid.cells[k] % 2) == (parity >> k & 1),
+            rest /= (size_t) f->grid.cells[k];
         if (same) out[count++] = cell;
     }
     return count;
@@ -532,7 +534,7 @@ static pg_status sum_all (galerkin *g)
 {
     pg_status status = PG_OK;
     size_t *cell = NULL;
-    PG_ALLOC (cell, g->f->ncell);
+    PG_ALLOC (cell, g->f->grid.ncell);
     g->cell = cell;
     for (int parity = 0; parity < g->f->corners; parity++) {
         pg_parallel_heavy (g->f->threads, cells_of_parity (g->f, parity, cell), sum_cells, g);
@@ -553,7 +555,7 @@ pg_status level_coarsen (level *c, const level *f)
 {
     pg_status status = PG_OK;
     galerkin g = { .c = c, .f = f };
-    c->dim = f->dim, c->block = f->block, c->threads = f->threads, c->n = f->nfunction,
+    c->dim = f->dim, c->block = f->block, c->threads = f->threads, c->n = f->grid.nfunction,
     c->ndof = c->n * (size_t) c->block;
     PG_TRY (make_pattern (c, f));
     PG_TRY (room_make (&g.workspace, f));

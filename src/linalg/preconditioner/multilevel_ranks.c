@@ -91,7 +91,7 @@ pg_status level_join (level *l, double *step)
     long long at[3];
     if (!l->part) return PG_OK;
     for (int k = 0; k < l->dim; k++)
-        if (!l->aligned || !(l->rows.lattice[k] > 0))
+        if (!l->grid.aligned || !(l->rows.lattice[k] > 0))
             PG_FAIL (PG_E_USAGE, "ranks share the nodes of a lattice, with vertices of coarse grids on them");
     if (l->n > (size_t) (INT_MAX >> l->dim))
         PG_FAIL (PG_E_LIMIT, "%zu points on one rank are too many", l->n);
@@ -117,8 +117,8 @@ void level_ranks_free (level_ranks **ranks)
 void level_align (level *l, int axis)
 {
     if (!l->part) return;
-    double h = l->step[axis], first = floor ((l->low[axis] - l->origin[axis]) / h + 1e-6);
-    l->low[axis] = l->origin[axis] + first * h;
+    double h = l->grid.step[axis], first = floor ((l->grid.low[axis] - l->origin[axis]) / h + 1e-6);
+    l->grid.low[axis] = l->origin[axis] + first * h;
 }
 
 /* ---- parts of hat functions ---------------------------------------------------------------------------- */
@@ -149,7 +149,7 @@ static size_t number_further (further *list, size_t n, size_t *parts)
 static size_t vertex_of (const level *l, size_t entry)
 {
     size_t corners = (size_t) l->corners;
-    return level_vertex (l, (size_t) l->cell[entry / corners], (int) (entry % corners));
+    return level_vertex (l, (size_t) l->coarse.cell[entry / corners], (int) (entry % corners));
 }
 
 /* function: the part of each node's hat functions, from their labels. */
@@ -160,22 +160,22 @@ static pg_status count_parts (level *l, size_t *parts)
     double *first = NULL;
     further *list = NULL;
     size_t n = 0, cap = 0, entries = l->n * (size_t) l->corners;
-    PG_ALLOC (first, l->nvertex);
+    PG_ALLOC (first, l->grid.nvertex);
     for (size_t e = 0; e < entries; e++) {
-        if (!(l->weight[e] > 0)) continue;
+        if (!(l->coarse.weight[e] > 0)) continue;
         size_t v = vertex_of (l, e);
-        l->function[e] = 0;
+        l->coarse.function[e] = 0;
         if (!parts[v]) parts[v] = 1, first[v] = label[e];
         if (label[e] == first[v]) continue;
         PG_GROW (list, cap, n + 1);
         list[n++] = (further) { v, label[e], 0 };
-        l->function[e] = 1;
+        l->coarse.function[e] = 1;
     }
     n = number_further (list, n, parts);
     for (size_t e = 0; e < entries; e++) {
-        if (!(l->weight[e] > 0) || !l->function[e]) continue;
+        if (!(l->coarse.weight[e] > 0) || !l->coarse.function[e]) continue;
         further one = { vertex_of (l, e), label[e], 0 };
-        l->function[e] = ((further *) pg_search (&one, list, n, sizeof *list, by_vertex))->part;
+        l->coarse.function[e] = ((further *) pg_search (&one, list, n, sizeof *list, by_vertex))->part;
     }
 done:
     pg_free (first), pg_free (list);
@@ -214,22 +214,22 @@ static void number_functions (const level *f, function_of_all *out)
     long long site[3];
     int at[3] = { 0 };
     for (size_t e = 0; e < f->n * corners; e++) {
-        if (f->function[e] < 0) continue;
-        function_of_all *o = &out[f->function[e]];
+        if (f->coarse.function[e] < 0) continue;
+        function_of_all *o = &out[f->coarse.function[e]];
         o->key = (int64_t) f->ranks->label[e];
         o->touched |= f->part->owned[e / corners];
     }
-    for (size_t h = 0; h < f->nvertex; h++) {
+    for (size_t h = 0; h < f->grid.nvertex; h++) {
         int64_t stride = 1, vertex = 0;
         level_vertex_place (f, h, at);
         for (int k = 0; k < f->dim; k++) {
-            long long v = (long long) round ((f->low[k] - f->origin[k]) / f->step[k]) + at[k];
-            vertex += v * stride, stride *= f->ranks->sites[k] / f->share_of[k] + 2;
+            long long v = (long long) round ((f->grid.low[k] - f->origin[k]) / f->grid.step[k]) + at[k];
+            vertex += v * stride, stride *= f->ranks->sites[k] / f->grid.share_of[k] + 2;
         }
-        for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
+        for (size_t p = f->coarse.first[h]; p < f->coarse.first[h + 1]; p++) {
             place_of (f->ranks, out[p].key / f->corners, site);
             out[p].owner = owner_of (f->ranks, f->dim, site), out[p].vertex = vertex;
-            for (int k = 0; k < f->dim; k++) out[p].place[k] = f->low[k] + at[k] * f->step[k];
+            for (int k = 0; k < f->dim; k++) out[p].place[k] = f->grid.low[k] + at[k] * f->grid.step[k];
         }
     }
 }

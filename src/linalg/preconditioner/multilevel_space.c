@@ -15,7 +15,7 @@ static const double negligible = 1e-5;
  * same relative positions, so that rows of coarse matrices can be shared. */
 static void make_grid (level *l, double step)
 {
-    l->ncell = l->nvertex = 1;
+    l->grid.ncell = l->grid.nvertex = 1;
     for (int k = 0; k < l->dim; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = 0; i < l->n; i++) {
@@ -23,17 +23,17 @@ static void make_grid (level *l, double step)
             low = fmin (low, x), high = fmax (high, x);
         }
         double count = fmax (1, round ((high - low) / step)), h = l->rows.lattice[k];
-        l->low[k] = low, l->step[k] = high > low ? (high - low) / count : 1;
+        l->grid.low[k] = low, l->grid.step[k] = high > low ? (high - low) / count : 1;
         /* Cells of whole lattice steps hold the same nodes at the same relative positions. */
         if (h > 0) {
-            l->share_of[k] = (int) fmax (1, round (step / h));
-            l->low[k] = l->aligned ? low : low - h / 2, l->step[k] = l->share_of[k] * h;
+            l->grid.share_of[k] = (int) fmax (1, round (step / h));
+            l->grid.low[k] = l->grid.aligned ? low : low - h / 2, l->grid.step[k] = l->grid.share_of[k] * h;
             level_align (l, k);
-            low = l->aligned ? l->low[k] : low;
-            count = fmax (1, ceil (round ((high - low) / h + !l->aligned) / l->share_of[k]));
+            low = l->grid.aligned ? l->grid.low[k] : low;
+            count = fmax (1, ceil (round ((high - low) / h + !l->grid.aligned) / l->grid.share_of[k]));
         }
-        l->cells[k] = (int) count;
-        l->ncell *= (size_t) l->cells[k], l->nvertex *= (size_t) l->cells[k] + 1;
+        l->grid.cells[k] = (int) count;
+        l->grid.ncell *= (size_t) l->grid.cells[k], l->grid.nvertex *= (size_t) l->grid.cells[k] + 1;
     }
 }
 
@@ -41,9 +41,9 @@ size_t level_vertex (const level *l, size_t cell, int corner)
 {
     size_t vertex = 0, stride = 1;
     for (int k = 0; k < l->dim; k++) {
-        size_t a = cell % (size_t) l->cells[k] + (size_t) (corner >> k & 1);
-        cell /= (size_t) l->cells[k];
-        vertex += a * stride, stride *= (size_t) l->cells[k] + 1;
+        size_t a = cell % (size_t) l->grid.cells[k] + (size_t) (corner >> k & 1);
+        cell /= (size_t) l->grid.cells[k];
+        vertex += a * stride, stride *= (size_t) l->grid.cells[k] + 1;
     }
     return vertex;
 }
@@ -51,7 +51,7 @@ size_t level_vertex (const level *l, size_t cell, int corner)
 void level_vertex_place (const level *l, size_t vertex, int *at)
 {
     for (int k = 0; k < l->dim; k++)
-        at[k] = (int) (vertex % ((size_t) l->cells[k] + 1)), vertex /= (size_t) l->cells[k] + 1;
+        at[k] = (int) (vertex % ((size_t) l->grid.cells[k] + 1)), vertex /= (size_t) l->grid.cells[k] + 1;
 }
 
 /* Has node i an unknown that is not masked? */
@@ -67,20 +67,21 @@ static void place_nodes (void *context, size_t first, size_t last, int thread)
         double t[3];
         size_t cell = 0, stride = 1;
         for (int k = 0; k < l->dim; k++) {
-            double s = (l->x[i * (size_t) l->dim + (size_t) k] - l->low[k]) / l->step[k];
-            if (l->share_of[k])
-                s = l->aligned ? round (s * l->share_of[k]) / l->share_of[k]
-                               : (floor (s * l->share_of[k]) + 0.5) / l->share_of[k];
-            double whole = fmin (fmax (0, floor (s)), l->cells[k] - 1);
+            double s = (l->x[i * (size_t) l->dim + (size_t) k] - l->grid.low[k]) / l->grid.step[k];
+            if (l->grid.share_of[k])
+                s = l->grid.aligned ? round (s * l->grid.share_of[k]) / l->grid.share_of[k]
+                               : (floor (s * l->grid.share_of[k]) + 0.5) / l->grid.share_of[k];
+            double whole = fmin (fmax (0, floor (s)), l->grid.cells[k] - 1);
             t[k] = fmin (fmax (0, s - whole), 1);
-            cell += (size_t) whole * stride, stride *= (size_t) l->cells[k];
+            cell += (size_t) whole * stride, stride *= (size_t) l->grid.cells[k];
         }
-        l->cell[i] = (int) cell;
+        l->coarse.cell[i] = (int) cell;
         for (int c = 0; c < l->corners; c++) {
             double w = 1;
             for (int k = 0; k < l->dim; k++) w *= c >> k & 1 ? t[k] : 1 - t[k];
-            l->weight[i * (size_t) l->corners + (size_t) c] = w > negligible && takes_part (l, i) ? (float) w
-                                                                                                  : 0;
+            l->coarse.weight[i * (size_t) l->corners + (size_t) c] = w > negligible && takes_part (l, i)
+                                                                         ? (float) w
+                                                                         : 0;
         }
     }
 }
@@ -89,11 +90,12 @@ static void place_nodes (void *context, size_t first, size_t last, int thread)
 static pg_status sort_by_cell (level *l)
 {
     pg_status status = PG_OK;
-    PG_ALLOC (l->cell_start, l->ncell + 2);
-    PG_ALLOC (l->cell_node, l->n);
-    for (size_t i = 0; i < l->n; i++) l->cell_start[l->cell[i] + 2]++;
-    for (size_t c = 0; c < l->ncell; c++) l->cell_start[c + 2] += l->cell_start[c + 1];
-    for (size_t i = 0; i < l->n; i++) l->cell_node[l->cell_start[l->cell[i] + 1]++] = (int) i;
+    PG_ALLOC (l->coarse.cell_start, l->grid.ncell + 2);
+    PG_ALLOC (l->coarse.cell_node, l->n);
+    for (size_t i = 0; i < l->n; i++) l->coarse.cell_start[l->coarse.cell[i] + 2]++;
+    for (size_t c = 0; c < l->grid.ncell; c++) l->coarse.cell_start[c + 2] += l->coarse.cell_start[c + 1];
+    for (size_t i = 0; i < l->n; i++)
+        l->coarse.cell_node[l->coarse.cell_start[l->coarse.cell[i] + 1]++] = (int) i;
 done:
     return status;
 }
@@ -109,14 +111,14 @@ typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } se
 /* Corner of node i's cell at which the hat function stands; -1: the node is not under the hat function. */
 static int corner_of (const level *l, size_t i, const int *vertex)
 {
-    size_t cell = (size_t) l->cell[i];
+    size_t cell = (size_t) l->coarse.cell[i];
     int corner = 0;
     for (int k = 0; k < l->dim; k++) {
-        int a = vertex[k] - (int) (cell % (size_t) l->cells[k]);
+        int a = vertex[k] - (int) (cell % (size_t) l->grid.cells[k]);
         if (a < 0 || a > 1) return -1;
-        corner |= a << k, cell /= (size_t) l->cells[k];
+        corner |= a << k, cell /= (size_t) l->grid.cells[k];
     }
-    return l->weight[i * (size_t) l->corners + (size_t) corner] > 0 ? corner : -1;
+    return l->coarse.weight[i * (size_t) l->corners + (size_t) corner] > 0 ? corner : -1;
 }
 
 /* Lists the nodes under a hat function at grid position `vertex`, cell by cell; returns how many. */
@@ -129,13 +131,13 @@ static size_t gather (const level *l, const int *vertex, int *under)
         int inside = 1;
         for (int k = 0; k < l->dim; k++) {
             int a = vertex[k] - (c >> k & 1);
-            inside = inside && a >= 0 && a < l->cells[k];
-            cell += inside ? (size_t) a * stride : 0, stride *= (size_t) l->cells[k];
+            inside = inside && a >= 0 && a < l->grid.cells[k];
+            cell += inside ? (size_t) a * stride : 0, stride *= (size_t) l->grid.cells[k];
         }
         if (!inside) continue;
-        for (size_t p = l->cell_start[cell]; p < l->cell_start[cell + 1]; p++) {
-            size_t i = (size_t) l->cell_node[p];
-            if (l->weight[i * (size_t) l->corners + (size_t) c] > 0) under[count++] = (int) i;
+        for (size_t p = l->coarse.cell_start[cell]; p < l->coarse.cell_start[cell + 1]; p++) {
+            size_t i = (size_t) l->coarse.cell_node[p];
+            if (l->coarse.weight[i * (size_t) l->corners + (size_t) c] > 0) under[count++] = (int) i;
         }
     }
     return count;
@@ -165,7 +167,7 @@ static size_t find_parts (level *l, size_t h, walker *w, int thread)
         }
         for (size_t e = 0; e < tail; e++) {
             size_t i = (size_t) w->queue[e];
-            l->function[i * (size_t) l->corners + (size_t) corner_of (l, i, vertex)] = (int) parts;
+            l->coarse.function[i * (size_t) l->corners + (size_t) corner_of (l, i, vertex)] = (int) parts;
         }
         reached += tail, parts++;
     }
@@ -228,8 +230,9 @@ static void search_vertices (void *context, size_t first, size_t last, int threa
 static size_t most_under (const level *l)
 {
     size_t most = 0;
-    for (size_t c = 0; c < l->ncell; c++)
-        if (l->cell_start[c + 1] - l->cell_start[c] > most) most = l->cell_start[c + 1] - l->cell_start[c];
+    for (size_t c = 0; c < l->grid.ncell; c++)
+        if (l->coarse.cell_start[c + 1] - l->coarse.cell_start[c] > most)
+            most = l->coarse.cell_start[c + 1] - l->coarse.cell_start[c];
     return most * (size_t) l->corners;
 }
 
@@ -247,16 +250,16 @@ static pg_status split_hats (level *l)
         PG_ALLOC (s.walker[t].seen, l->n);
         PG_ALLOC (s.walker[t].met, l->part ? l->part->halo.n : 0);
     }
-    PG_ALLOC (l->first, l->nvertex + 1);
-    s.parts = l->first + 1;
+    PG_ALLOC (l->coarse.first, l->grid.nvertex + 1);
+    s.parts = l->coarse.first + 1;
     if (l->part) {
         PG_ALLOC (l->ranks->joined, l->n * (size_t) l->corners);
         pg_disjoint_start (l->ranks->joined, l->n * (size_t) l->corners);
     }
-    pg_parallel (l->threads, l->nvertex, search_vertices, &s);
+    pg_parallel (l->threads, l->grid.nvertex, search_vertices, &s);
     PG_TRY (level_agree_parts (l, s.parts));
-    for (size_t h = 0; h < l->nvertex; h++) l->first[h + 1] += l->first[h];
-    l->nfunction = l->first[l->nvertex];
+    for (size_t h = 0; h < l->grid.nvertex; h++) l->coarse.first[h + 1] += l->coarse.first[h];
+    l->grid.nfunction = l->coarse.first[l->grid.nvertex];
 done:
     for (int t = 0; s.walker && t < l->threads; t++)
         pg_free (s.walker[t].under), pg_free (s.walker[t].queue), pg_free (s.walker[t].node),
@@ -270,22 +273,24 @@ static pg_status number_functions (level *l)
 {
     pg_status status = PG_OK;
     size_t corners = (size_t) l->corners;
-    PG_ALLOC (l->at, l->nfunction + 2);
+    PG_ALLOC (l->coarse.at, l->grid.nfunction + 2);
     for (size_t i = 0; i < l->n; i++)
         for (size_t c = 0; c < corners; c++) {
-            int *f = &l->function[i * corners + c];
-            if (!(l->weight[i * corners + c] > 0)) *f = -1;
-            else *f += (int) l->first[level_vertex (l, (size_t) l->cell[i], (int) c)], l->at[*f + 2]++;
+            int *f = &l->coarse.function[i * corners + c];
+            if (!(l->coarse.weight[i * corners + c] > 0)) *f = -1;
+            else
+                *f += (int) l->coarse.first[level_vertex (l, (size_t) l->coarse.cell[i], (int) c)],
+                    l->coarse.at[*f + 2]++;
         }
-    for (size_t f = 0; f < l->nfunction; f++) l->at[f + 2] += l->at[f + 1];
-    PG_ALLOC (l->member, l->at[l->nfunction + 1]);
-    PG_ALLOC (l->share, l->at[l->nfunction + 1]);
+    for (size_t f = 0; f < l->grid.nfunction; f++) l->coarse.at[f + 2] += l->coarse.at[f + 1];
+    PG_ALLOC (l->coarse.member, l->coarse.at[l->grid.nfunction + 1]);
+    PG_ALLOC (l->coarse.share, l->coarse.at[l->grid.nfunction + 1]);
     for (size_t i = 0; i < l->n; i++)
         for (size_t c = 0; c < corners; c++) {
-            int f = l->function[i * corners + c];
+            int f = l->coarse.function[i * corners + c];
             if (f < 0) continue;
-            l->member[l->at[f + 1]] = (int) i;
-            l->share[l->at[f + 1]++] = l->weight[i * corners + c];
+            l->coarse.member[l->coarse.at[f + 1]] = (int) i;
+            l->coarse.share[l->coarse.at[f + 1]++] = l->coarse.weight[i * corners + c];
         }
 done:
     return status;
@@ -297,9 +302,9 @@ pg_status level_space (level *l, double step)
     pg_status status = PG_OK;
     l->corners = 1 << l->dim;
     make_grid (l, step);
-    PG_ALLOC (l->cell, l->n);
-    PG_ALLOC (l->weight, l->n * (size_t) l->corners);
-    PG_ALLOC (l->function, l->n * (size_t) l->corners);
+    PG_ALLOC (l->coarse.cell, l->n);
+    PG_ALLOC (l->coarse.weight, l->n * (size_t) l->corners);
+    PG_ALLOC (l->coarse.function, l->n * (size_t) l->corners);
     pg_parallel (l->threads, l->n, place_nodes, l);
     PG_TRY (sort_by_cell (l));
     PG_TRY (split_hats (l));

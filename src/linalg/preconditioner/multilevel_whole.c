@@ -175,7 +175,8 @@ pg_status multilevel_gather (pg_multilevel *m, const function_of_all *held)
     size_t count = 0, n = 0, dim = (size_t) c->dim;
     PG_TRY (list_functions (held, c->n, c->dim, &all, &count));
     PG_TRY (find_held (m, held, all, count));
-    l->dim = c->dim, l->block = c->block, l->threads = c->threads, l->aligned = c->aligned, l->n = count;
+    l->dim = c->dim, l->block = c->block, l->threads = c->threads, l->grid.aligned = c->grid.aligned,
+    l->n = count;
     l->ndof = count * (size_t) c->block;
     memcpy (l->reach, c->reach, sizeof l->reach);
     memcpy (l->rows.lattice, c->rows.lattice, sizeof l->rows.lattice);

@@ -31,8 +31,8 @@ void bond_force_free (void **self)
     boundary_free (&b->boundary);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
-    pg_free (b->idle), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work), pg_free (b->stale),
-        pg_free (b->diagonal), pg_free (b->whole);
+    pg_free (b->idle), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work),
+        pg_free (b->stale.column), pg_free (b->diagonal), pg_free (b->whole);
     pg_free (b);
     *self = NULL;
 }
@@ -54,7 +54,7 @@ static pg_status make_limits (bond_force *b)
     pg_status status = PG_OK;
     const pg_problem *p = b->problem;
     PG_TRY (bond_force_energy_create (b));
-    if (!pg_criterion_of_bonds (p->criterion) || b->critical || b->limit) goto done;
+    if (!pg_criterion_of_bonds (p->criterion) || b->node.critical || b->limit) goto done;
     PG_ALLOC (b->limit, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
@@ -92,7 +92,7 @@ pg_status bond_force_make (void **self, const pg_problem *problem, const bond_th
     b->problem = problem, b->dim = problem->dim, b->threads = problem->threads, b->n = problem->cloud.n;
     b->stride = pg_problem_unknowns (problem);
     b->family = &problem->bonds.rows[PG_NODES].family;
-    b->all_stale = 1, b->revision = 1;
+    b->stale.all = 1, b->revision = 1;
     b->op = (pg_operator) { ndof (b), b, bond_force_apply, bond_force_diagonal };
     for (size_t i = 0; i < b->n; i++) {
         size_t m = b->family->start[i + 1] - b->family->start[i];
@@ -100,7 +100,7 @@ pg_status bond_force_make (void **self, const pg_problem *problem, const bond_th
     }
     PG_ALLOC (b->workspace, (size_t) b->threads * b->widest * (size_t) (b->dim + 2));
     PG_ALLOC (b->work, ndof (b));
-    PG_ALLOC (b->stale, b->n);
+    PG_ALLOC (b->stale.column, b->n);
     PG_ALLOC (b->diagonal, ndof (b));
     PG_TRY (theory->create (b));
     PG_TRY (make_limits (b));
@@ -147,7 +147,7 @@ static void mark_stale (bond_force *b, const pg_changes *changes)
         int set;
         size_t point;
         pg_problem_locate (b->problem, changes->bond[c], &set, &point);
-        b->stale[point] = b->stale[b->family->node[changes->bond[c]]] = 1;
+        b->stale.column[point] = b->stale.column[b->family->node[changes->bond[c]]] = 1;
     }
     b->revision += changes->n > 0;
 }
@@ -160,7 +160,7 @@ pg_status bond_force_refresh (void *self, const pg_state *state, const pg_change
     pg_bond_loop_update (b->loop, state->alive, changes);
     if (b->tangent) pg_bond_loop_update (b->tangent, state->alive, changes);
     if (changes) mark_stale (b, changes);
-    else b->all_stale = 1, b->revision++, b->theory->forget ? b->theory->forget (b) : (void) 0;
+    else b->stale.all = 1, b->revision++, b->theory->forget ? b->theory->forget (b) : (void) 0;
     return PG_OK;
 }
 
@@ -197,7 +197,7 @@ pg_status bond_force_balance_and_break (void *self, double t, const double *d, d
     pg_status status = PG_OK;
     bond_force *b = self;
     size_t before = broken->n;
-    if (b->critical) PG_TRY (bond_force_energy_kill (b, d, broken));
+    if (b->node.critical) PG_TRY (bond_force_energy_kill (b, d, broken));
     PG_TRY (pg_bond_loop_force (b->loop, d, residual, b->limit ? broken : NULL));
     if (broken->n > before) {
         pg_changes fresh = { broken->n - before, 0, broken->bond + before };

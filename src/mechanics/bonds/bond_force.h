@@ -52,6 +52,14 @@ typedef struct {
 } bond_theory;
 
 /* What all of them share. A theory's own struct begins with it. */
+/* Points that die by their energy (node_energy). */
+typedef struct {
+    double *critical; /* energy density at which a point dies, J/m^3, INFINITY: never; NULL: none does (n) */
+    double   *density;                                 /* W of each point, J/m^3; with critical (n) */
+    unsigned char *dying; /* 0 but while they are looked for; with critical (n) */
+} bond_deaths;
+/* Columns of K to be made again: all, or those marked. */
+typedef struct { int all; unsigned char *column; } stale_columns;
 struct bond_force {
     const bond_theory *theory;
     const pg_problem *problem;
@@ -66,11 +74,7 @@ struct bond_force {
     unsigned char *idle;
     /* critical stretch of each point; NULL: bonds do not break by theirs (n) */
     double   *limit;
-    /* energy density at which a point dies, J/m^3, INFINITY: never; NULL: none does (n) */
-    double   *critical;
-    double   *density;                                 /* W of each point, J/m^3; with critical (n) */
-    /* 0 but while they are looked for; with critical (n) */
-    unsigned char *dying;
+    bond_deaths node;
     /* forces by the dilatations of both ends; NULL: none */
     struct dilatation *dilatation;
     pg_bond_loop_setting setting;                      /* what `loop` was made from */
@@ -83,9 +87,7 @@ struct bond_force {
     double   *work;                                    /* ndof */
     pg_operator op;
     pg_sparse K;                                       /* row NULL until asked for */
-    /* columns of K to be made again: all, or those marked */
-    int       all_stale;
-    unsigned char *stale;
+    stale_columns stale;
     double   *diagonal;  unsigned long diagonal_of;    /* of K at that revision (ndof); 0: not made yet */
     unsigned long revision;
     /* row of blocks of a point with all its bonds, the own one last; NULL: not the same for all */

@@ -23,13 +23,14 @@ pg_status bond_force_energy_create (bond_force *b)
 {
     pg_status status = PG_OK;
     const pg_problem *p = b->problem;
-    if (b->critical || !p->criterion->type || !(p->criterion->type->needs & PG_NEEDS_ENERGY)) return PG_OK;
-    if (!b->density) PG_ALLOC (b->density, b->n);
-    if (!b->dying) PG_ALLOC (b->dying, b->n);
-    PG_ALLOC (b->critical, b->n);
+    if (b->node.critical || !p->criterion->type || !(p->criterion->type->needs & PG_NEEDS_ENERGY))
+        return PG_OK;
+    if (!b->node.density) PG_ALLOC (b->node.density, b->n);
+    if (!b->node.dying) PG_ALLOC (b->node.dying, b->n);
+    PG_ALLOC (b->node.critical, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
-        b->critical[i] = c->never || p->bonds.exempt[PG_NODES][i] ? INFINITY
+        b->node.critical[i] = c->never || p->bonds.exempt[PG_NODES][i] ? INFINITY
                                                             : limit_at (c, pg_cloud_ratio (&p->cloud, i));
     }
 done:
@@ -38,7 +39,7 @@ done:
 
 void bond_force_energy_free (bond_force *b)
 {
-    pg_free (b->critical), pg_free (b->density), pg_free (b->dying);
+    pg_free (b->node.critical), pg_free (b->node.density), pg_free (b->node.dying);
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------ */
@@ -61,12 +62,12 @@ static pg_status collect (const bond_force *b, pg_changes *out)
     const pg_family *f = b->family;
     size_t before = out->n;
     for (size_t i = 0; i < b->n; i++)
-        for (size_t e = f->start[i]; b->dying[i] && e < f->start[i + 1]; e++) {
+        for (size_t e = f->start[i]; b->node.dying[i] && e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
             if (!bond_force_lives (b, e)) continue;
             PG_GROW (out->bond, out->cap, out->n + 2);
             out->bond[out->n++] = e;
-            if (!b->dying[j]) out->bond[out->n++] = back_of (f, i, j);
+            if (!b->node.dying[j]) out->bond[out->n++] = back_of (f, i, j);
         }
     if (out->n > before) pg_sort (out->bond + before, out->n - before, sizeof *out->bond, pg_ascending_sizes);
 done:
@@ -82,7 +83,7 @@ pg_status bond_force_energy_kill (bond_force *b, const double *d, pg_changes *br
     PG_TRY (b->theory->find_dying (b, d, &dying));
     if (dying == 0) goto done;
     status = collect (b, broken);
-    memset (b->dying, 0, b->n);
+    memset (b->node.dying, 0, b->n);
     PG_TRY (status);
     pg_changes fresh = { broken->n - before, 0, broken->bond + before };
     pg_bond_loop_update (b->loop, b->alive, &fresh);
@@ -99,7 +100,7 @@ static void spread_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
     const pg_family *f = s->b->family;
-    const double *u = s->b->density;
+    const double *u = s->b->node.density;
     (void) thread;
     for (size_t i = first; i < last; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
@@ -118,8 +119,9 @@ pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, c
     pg_status status = PG_OK;
     judging s = { b, state->alive, utilisation, factor, kind };
     PG_TRY (bond_force_energy_create (b));  /* a plan asks of a problem whose criterion comes later */
-    PG_TRY (pg_bond_loop_energies (b->loop, d, b->density));
-    for (size_t i = 0; i < b->n; i++) b->density[i] = sqrt (fmax (0, b->density[i] / b->critical[i]));
+    PG_TRY (pg_bond_loop_energies (b->loop, d, b->node.density));
+    for (size_t i = 0; i < b->n; i++)
+        b->node.density[i] = sqrt (fmax (0, b->node.density[i] / b->node.critical[i]));
     pg_parallel (b->threads, b->n, spread_points, &s);
 done:
     return status;

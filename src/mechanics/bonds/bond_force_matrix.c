@@ -303,7 +303,7 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
         const double *mass = w->mass + i * m, *P = sum;
         int shared = !p->plain && was_whole (w->b, i);
         if (!shared) point_bonds_at (w->b, i, thread, &s);
-        int grows = w->b->dilatation && p->sums->rule.follow && (w->b->limit || w->b->critical);
+        int grows = w->b->dilatation && p->sums->rule.follow && (w->b->limit || w->b->node.critical);
         double state = grows ? dilatation_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
         double hold = 0;                               /* springs, where no own block has them */
         for (size_t k = 0; grows && !w->b->theory->alone && w->b->boundary.hold && k < m; k++)
@@ -374,7 +374,7 @@ static pg_status create_matrix (bond_force *b)
             b->K.start[i * dim + c + 1] = at;
         }
     }
-    b->all_stale = 1;
+    b->stale.all = 1;
 done:
     if (status != PG_OK) pg_sparse_clear (&b->K);
     return status;
@@ -390,7 +390,7 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
     point_bonds s;
     double D[MOST], own[MOST], other[MOST];
     for (size_t i = first; i < last; i++) {
-        if (!b->all_stale && !b->stale[i]) continue;
+        if (!b->stale.all && !b->stale.column[i]) continue;
         point_bonds_at (b, i, thread, &s);
         own_block (b, i, &s, 0, 0, D);
         size_t below = lower (b, i);
@@ -415,8 +415,8 @@ static pg_status assemble (bond_force *b)
     if (!b->K.row) PG_TRY (create_matrix (b));
     job w = { b, NULL, NULL };
     pg_parallel (b->threads, b->n, make_columns, &w);
-    b->all_stale = 0;
-    memset (b->stale, 0, b->n);
+    b->stale.all = 0;
+    memset (b->stale.column, 0, b->n);
 done:
     return status;
 }

@@ -25,7 +25,7 @@ static void say_sums (const bond_force *b, char *text, size_t size)
 static void say_toughness (const bond_force *b, char *text, size_t size)
 {
     const pg_sums *s = b->problem->sums;
-    if (b->critical)
+    if (b->node.critical)
         snprintf (text, size,
                   "energy of points is looked at in every step; a crack kills points over a width of about "
                   "the horizon, which costs more than G0 at "
@@ -58,8 +58,8 @@ int bond_force_describe (const void *self, size_t line, char *text, size_t size)
     size_t n = b->problem->nmaterial;
     if (line < n) b->theory->words (b, line, text, size);
     else if (line == n) say_sums (b, text, size);
-    else if (line == n + 1 && (b->limit || b->critical)) say_toughness (b, text, size);
-    else return line == n + 1 + (b->limit || b->critical) && say_step (b, text, size);
+    else if (line == n + 1 && (b->limit || b->node.critical)) say_toughness (b, text, size);
+    else return line == n + 1 + (b->limit || b->node.critical) && say_step (b, text, size);
     return 1;
 }
 

@@ -71,9 +71,9 @@ done:
 pg_status dilatation_dying (bond_force *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;
-    PG_TRY (pg_bond_loop_energies (b->loop, d, b->density));
+    PG_TRY (pg_bond_loop_energies (b->loop, d, b->node.density));
     *dying = 0;
-    for (size_t i = 0; i < b->n; i++) *dying += b->dying[i] = b->density[i] >= b->critical[i];
+    for (size_t i = 0; i < b->n; i++) *dying += b->node.dying[i] = b->node.density[i] >= b->node.critical[i];
 done:
     return status;
 }

@@ -102,7 +102,8 @@ static void find_gains (void *context, size_t first, size_t last, int thread)
                 double kappa = pairwise_kappa (b, i, &s, e, &r);
                 sum += kappa * r * r;
             }
-            t->gain[k] = fmax (t->gain[k], sqrt (sum / (4 * b->problem->cloud.volume[i] * b->critical[i])));
+            t->gain[k] = fmax (t->gain[k],
+                               sqrt (sum / (4 * b->problem->cloud.volume[i] * b->node.critical[i])));
         }
 }
 
@@ -257,7 +258,7 @@ static void clear_tiles (void *context, size_t first, size_t last, int thread)
 /* By the plain sum over its own bonds, whatever the tiles say. */
 static int dies (const bond_force *b, size_t i, int thread, const double *d)
 {
-    return isfinite (b->critical[i]) && pairwise_energy_at (b, i, thread, d) >= b->critical[i];
+    return isfinite (b->node.critical[i]) && pairwise_energy_at (b, i, thread, d) >= b->node.critical[i];
 }
 
 /* Open points, by their own bonds. */
@@ -268,7 +269,7 @@ static void look_at_open (void *context, size_t first, size_t last, int thread)
     size_t i;
     for (size_t k = first; k < last; k++)
         for (place p = { t->start[k], 0 }; t->open[k] && next_point (t, k, &p, &i);)
-            w->b->dying[i] = is_open (t, k, t->near[i]) && dies (w->b, i, thread, w->d);
+            w->b->node.dying[i] = is_open (t, k, t->near[i]) && dies (w->b, i, thread, w->d);
 }
 
 /* All energies, from b->density: those near their limit are summed once more by their own bonds, since
@@ -282,9 +283,9 @@ static void look_at_all (void *context, size_t first, size_t last, int thread)
     for (size_t k = first; k < last; k++) {
         t->known[k] = 0;
         for (place p = { t->start[k], 0 }; next_point (t, k, &p, &i);) {
-            t->near[i] = sqrt (fmax (0, b->density[i] / b->critical[i]));
+            t->near[i] = sqrt (fmax (0, b->node.density[i] / b->node.critical[i]));
             t->known[k] = fmax (t->known[k], t->near[i]);
-            b->dying[i] = t->near[i] >= 1 - margin && dies (b, i, thread, w->d);
+            b->node.dying[i] = t->near[i] >= 1 - margin && dies (b, i, thread, w->d);
         }
     }
 }
@@ -309,14 +310,14 @@ pg_status pairwise_tiles_look (bond_force *b, const double *d, size_t *dying)
     int all = !t->fresh || t->spent + open > b->n / DEAR;
     t->spent = all ? 0 : t->spent + open;
     if (all) {
-        PG_TRY (pg_bond_loop_energies (b->loop, d, b->density));
+        PG_TRY (pg_bond_loop_energies (b->loop, d, b->node.density));
         memcpy (t->d0, d, b->n * (size_t) t->dim * sizeof *d);
         t->fresh = 1;
     }
     pg_parallel_heavy (b->threads, t->n, all ? look_at_all : look_at_open, &w);
     for (size_t k = 0; k < t->n; k++)
         for (place p = { t->start[k], 0 }; (all || t->open[k]) && next_point (t, k, &p, &i);)
-            *dying += b->dying[i];
+            *dying += b->node.dying[i];
 done:
     return status;
 }

@@ -72,35 +72,43 @@ typedef struct {
     double *mark;  size_t nmark, cap_mark;             /* places to which it may return */
 } contact_route;
 
+/* What is true of contact, 1 or 0. */
+typedef struct {
+    int       said_blind;                              /* points that see too little were told of */
+    int       waits;                                   /* 1: cracks have grown, pieces are those before */
+    int       active;                                  /* some force is not zero */
+    int       began;  /* pieces have been looked for: cracks that had none are new */
+    int       touched;                                 /* the last equilibrium asked for the compliance */
+    int       history;                                 /* 1: slip has a memory from step to step */
+    int       moves;                                   /* 1: the last state solved for is one in motion */
+} contact_flags;
+/* Displacements and gaps by unit forces between faces. */
+typedef struct {
+    unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
+    unsigned long again;  /* revision, + 1, whose Z and C a resumed run remakes */
+    double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */
+} contact_compliance;
 struct system_contact {
     pg_contact_setting setting;
     pg_contact_pieces  pieces;                         /* of cracks, then of platens */
     size_t    ncrack;                                  /* pieces of cracks */
     contact_platens platens;
     contact_loose   loose;
+    contact_flags is;
+    contact_compliance compliance;
     pg_sparse G;                                       /* G', ndof x dim n */
-    int       said_blind;                              /* points that see too little were told of */
-    unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
-    unsigned long again;  /* revision, + 1, whose Z and C a resumed run remakes */
-    double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */
     double   *coefficient, *cohesion;                  /* mu, c A (N), of each piece (n) */
     double   *before;                                  /* slip before (n x (dim - 1)) */
     double   *force, *gap, *open;                      /* f; g; gaps without contact (dim n each) */
     double   *initial;                                 /* gaps without displacement, m (dim n) */
-    int       waits;                                   /* 1: cracks have grown, pieces are those before */
     /* of cracks, what the layer between closed faces gives way by, m/N (dim ncrack): 0 where faces are sharp;
      * how much stiffer than the bonds that crossed it the layer may be */
     double   *soft, stiffer;
     unsigned char *status;                             /* of each piece (n) */
     double   *nodal;                                   /* G' f, N (ndof) */
-    int       active;                                  /* some force is not zero */
-    int       began;  /* pieces have been looked for: cracks that had none are new */
-    int       touched;                                 /* the last equilibrium asked for the compliance */
-    int       history;                                 /* 1: slip has a memory from step to step */
     /* what stands in the equations of a time step over the mean force of that step; 1 at rest */
     double    weight;
     double   *rebound;                                 /* in motion: mean of impulses in the step, N (n) */
-    int       moves;                                   /* 1: the last state solved for is one in motion */
     pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
     pg_face_piece *press;                              /* pieces that press, for the last tip examined (n) */
     contact_route route;
@@ -116,7 +124,7 @@ static inline int contact_of_faces (const struct system_contact *c)
 /* Do forces of contact stand in the equations? */
 static inline void contact_set_active (pg_system *s, int active)
 {
-    s->contact->active = active, s->balance.pressed = active ? s->contact->nodal : NULL;
+    s->contact->is.active = active, s->balance.pressed = active ? s->contact->nodal : NULL;
 }
 
 /* ---- contact_solve.c ----------------------------------------------------------------------------------- */

@@ -95,7 +95,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
     double *rhs = NULL, *solved = NULL, *kept = NULL, t0 = pg_seconds ();
-    if (!c->Z) PG_ALLOC (c->Z, s->ndof * n);
+    if (!c->compliance.Z) PG_ALLOC (c->compliance.Z, s->ndof * n);
     PG_ALLOC (rhs, s->nred * n);
     PG_ALLOC (solved, s->nred * n);
     if (dyn) {                                         /* iterations would carry it along */
@@ -126,10 +126,10 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     s->report->contact.columns += (long) n;
     PG_TRY (refine_columns (s, rhs, solved, n));
     /* nor are these columns among those of the run, when a resumed one has them again */
-    if (c->again == f->revision + 1) s->report->contact.columns = columns;
-    c->again = 0;
+    if (c->compliance.again == f->revision + 1) s->report->contact.columns = columns;
+    c->compliance.again = 0;
     for (size_t j = 0; j < n; j++)
-        system_expand (s, solved + j * s->nred, c->Z + j * s->ndof);
+        system_expand (s, solved + j * s->nred, c->compliance.Z + j * s->ndof);
 done:
     if (kept) memcpy (b->residual, kept, s->ndof * sizeof *kept);
     pg_free (rhs), pg_free (solved), pg_free (kept);
@@ -140,7 +140,7 @@ done:
 pg_status contact_factor (pg_system *s)
 {
     const struct system_contact *c = s->contact;
-    int worth = c->touched && c->pieces.dim * c->pieces.n > MANY;
+    int worth = c->is.touched && c->pieces.dim * c->pieces.n > MANY;
     return worth && s->choice.mode == SYSTEM_KEPT_FACTOR && s->direct.stale ? system_factorize (s, NULL)
            : PG_OK;
 }
@@ -151,26 +151,26 @@ pg_status contact_condense (pg_system *s, const dynamics *dyn)
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
-    if (c->made == s->direct.revision + 1) return PG_OK;
+    if (c->compliance.made == s->direct.revision + 1) return PG_OK;
     double t0 = pg_seconds ();
     PG_TRY (solve_columns (s, dyn));
-    if (!c->C) PG_ALLOC (c->C, n * n);
+    if (!c->compliance.C) PG_ALLOC (c->compliance.C, n * n);
     for (size_t j = 0; j < n; j++)
-        pg_sparse_multiply_transposed (&c->G, c->Z + j * s->ndof, c->C + j * n);
+        pg_sparse_multiply_transposed (&c->G, c->compliance.Z + j * s->ndof, c->compliance.C + j * n);
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < j; i++) {
             int one = needs_column (c, i), other = needs_column (c, j);
-            double sum = (other ? c->C[j * n + i] : 0) + (one ? c->C[i * n + j] : 0);
-            c->C[j * n + i] = c->C[i * n + j] = one && other ? 0.5 * sum : sum;
+            double sum = (other ? c->compliance.C[j * n + i] : 0) + (one ? c->compliance.C[i * n + j] : 0);
+            c->compliance.C[j * n + i] = c->compliance.C[i * n + j] = one && other ? 0.5 * sum : sum;
         }
     for (size_t j = 0; j < n; j++)                     /* not asked for, but positive */
-        if (!needs_column (c, j)) c->C[j * n + j] = c->C[(j / 3 * 3) * (n + 1)];
-    for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->C[i * n + i] += c->soft[i];
+        if (!needs_column (c, j)) c->compliance.C[j * n + j] = c->compliance.C[(j / 3 * 3) * (n + 1)];
+    for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->compliance.C[i * n + i] += c->soft[i];
     /* empty columns bear nothing, whatever their compliance */
     double most = 0;
-    for (size_t j = 0; j < n; j++) most = fmax (most, c->C[j * n + j]);
-    for (size_t j = 0; j < n; j++) if (!(c->C[j * n + j] > 0)) c->C[j * n + j] = most;
-    c->made = s->direct.revision + 1;
+    for (size_t j = 0; j < n; j++) most = fmax (most, c->compliance.C[j * n + j]);
+    for (size_t j = 0; j < n; j++) if (!(c->compliance.C[j * n + j] > 0)) c->compliance.C[j * n + j] = most;
+    c->compliance.made = s->direct.revision + 1;
     s->report->contact.seconds += pg_seconds () - t0;
 done:
     return status;

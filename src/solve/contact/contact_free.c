@@ -181,7 +181,7 @@ static void find_springs (problem_of_motions *w)
         const double *b = w->B + j * n;
         double own = 0, size = 0, count = 0;
         for (size_t i = 0; i < n; i++)
-            if (b[i] != 0) own += w->c->C[i * n + i], size += b[i] * b[i], count++;
+            if (b[i] != 0) own += w->c->compliance.C[i * n + i], size += b[i] * b[i], count++;
         w->S[j] = size > 0 ? SOFT * own / count / size : 0;
     }
 }
@@ -190,7 +190,7 @@ static void find_springs (problem_of_motions *w)
 static void soften (problem_of_motions *w)
 {
     size_t n = w->rows;
-    memcpy (w->C, w->c->C, n * n * sizeof *w->C);
+    memcpy (w->C, w->c->compliance.C, n * n * sizeof *w->C);
     for (size_t j = 0; j < w->m; j++) {
         const double *b = w->B + j * n;
         for (size_t i = 0; i < n; i++)
@@ -246,7 +246,7 @@ static void find_noise (problem_of_motions *w, const double *open)
     double most = fmax (w->s->balance.reference, w->s->balance.borne);
     size_t dim = w->c->pieces.dim;
     for (size_t i = 0; i < w->rows; i += dim) {
-        double gap = open[i], stiff = w->c->C[i * w->rows + i];
+        double gap = open[i], stiff = w->c->compliance.C[i * w->rows + i];
         for (size_t j = 0; j < w->m; j++) gap += w->B[j * w->rows + i] * w->y[j];
         if (gap < 0 && stiff > 0) most = fmax (most, -gap / stiff);
     }
@@ -264,7 +264,7 @@ static pg_status press_springs (problem_of_motions *w, pg_contact_solution *out,
     }
     pg_contact_problem problem = { .n = c->pieces.n, .dim = c->pieces.dim, .C = w->C, .gap = w->gap,
                                    .coefficient = c->coefficient, .cohesion = c->cohesion,
-                                   .slip = c->history ? c->before : NULL };
+                                   .slip = c->is.history ? c->before : NULL };
     return pg_contact_solve (out, &problem);
 }
 

@@ -36,7 +36,7 @@ static void at_vertex (const struct system_contact *c, double h, const double *x
     for (int k = 0; k < 3; k++) t[k] = e[(k + 1) % 3] * n[(k + 2) % 3] - e[(k + 2) % 3] * n[(k + 1) % 3];
     memset (out, 0, sizeof *out);
     out->nearest = INFINITY;
-    for (size_t k = 0; c->active && k < c->ncrack; k++) {
+    for (size_t k = 0; c->is.active && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[3], side = pg_dot3 (p->normal, n);
         int presses = nfield == 1 ? c->force[3*k] > 0 : c->status[k] != PG_CONTACT_OPEN;

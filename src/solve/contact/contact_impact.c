@@ -24,7 +24,8 @@ pg_status contact_impacts (const pg_system *s, const double *d, double *nodal, d
     PG_ALLOC (force, dim * n);
     pg_sparse_multiply_transposed (&c->G, d, gap);
     /* faces that stay together are apart by rounding */
-    for (size_t i = 0; i < dim * n; i += dim) moved = fmax (moved, c->C[i * dim * n + i] * c->force[i]);
+    for (size_t i = 0; i < dim * n; i += dim)
+        moved = fmax (moved, c->compliance.C[i * dim * n + i] * c->force[i]);
     for (size_t k = 0; k < n; k++) {
         double before = gap[dim * k] + c->initial[dim * k], f = c->force[dim * k] / c->weight;
         c->rebound[k] = before > APART * moved && f > 0 ? f : 0;
@@ -53,7 +54,7 @@ pg_status contact_renew (pg_system *s, const pg_state *state)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    if (!c || !c->waits) return PG_OK;
+    if (!c || !c->is.waits) return PG_OK;
     PG_TRY (contact_refresh (s, state, NULL));
     contact_layout l = contact_layout_of (c->pieces.dim);
     pg_sparse_multiply_transposed (&c->G, state->d, c->gap);

@@ -61,7 +61,7 @@ pg_status contact_remember (struct system_contact *c)
 {
     pg_status status = PG_OK;
     size_t dim = c->pieces.dim;
-    int first = !c->now.n && !(c->began && c->ncrack);
+    int first = !c->now.n && !(c->is.began && c->ncrack);
     contact_layout l = contact_layout_of (dim);
     contact_memory fresh = { .friction = c->now.friction, .at = c->now.at, .n = c->pieces.n };
     PG_GROW (fresh.value, fresh.room, fresh.n * l.values);
@@ -99,13 +99,13 @@ static void book_step (struct system_contact *c)
     double work = 0;
     for (size_t k = 0; k < c->pieces.n; k++) {
         double *v = c->now.value + k * l.values, area = c->weight * c->pieces.piece[k].area;
-        for (size_t a = 1; a < dim && c->active; a++) {
+        for (size_t a = 1; a < dim && c->is.active; a++) {
             size_t i = dim * k + a;
             work -= c->force[i] / c->weight * (c->gap[i] - c->before[k * (dim - 1) + a - 1]);
         }
         contact_vector (&c->pieces, k, c->gap + dim * k + 1, 1, v + l.slip);
         memset (v + l.shear, 0, l.parts * sizeof *v);
-        if (c->active) contact_vector (&c->pieces, k, c->force + dim * k + 1, 1 / area, v + l.shear);
+        if (c->is.active) contact_vector (&c->pieces, k, c->force + dim * k + 1, 1 / area, v + l.shear);
     }
     c->now.friction = c->start.friction + work;
 }
@@ -114,12 +114,12 @@ void contact_book (pg_system *s, double scale)
 {
     struct system_contact *c = s->contact;
     contact_layout l = contact_layout_of (c ? c->pieces.dim : 2);
-    if (c && c->moves) book_step (c);
-    for (size_t k = 0; c && !c->moves && k < c->pieces.n; k++) {
+    if (c && c->is.moves) book_step (c);
+    for (size_t k = 0; c && !c->is.moves && k < c->pieces.n; k++) {
         const double none[2] = { 0, 0 };
         size_t i = c->pieces.dim * k + 1;
         double *v = c->now.value + k * l.values, area = c->pieces.piece[k].area, shear[3], slip[3];
-        contact_vector (&c->pieces, k, c->active ? c->force + i : none, scale, shear);
+        contact_vector (&c->pieces, k, c->is.active ? c->force + i : none, scale, shear);
         contact_vector (&c->pieces, k, c->gap + i, scale, slip);
         for (size_t m = 0; m < l.parts; m++) {
             c->now.friction -=
@@ -236,16 +236,16 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
     long piece[4] = { r->contact.pieces, r->contact.open, r->contact.stick, r->contact.sliding };
     size_t n = c->pieces.n;
-    int made = c->made == s->direct.revision + 1, active = c->active;
+    int made = c->compliance.made == s->direct.revision + 1, active = c->is.active;
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
     PG_TRY (keep_shown (s, k));
     PG_TRY (pg_keep_fields (k, "contact", "counts", NULL, 1, PG_ROWS (
         PG_KEPT_IN (n, c->pieces.n, c->pieces.n, "the number of pieces of cracks"),
         PG_KEPT_IN (active, 0, 1, "contact"), PG_KEPT (r->contact.passes), PG_KEPT (r->contact.sweeps),
-        PG_KEPT (c->touched), PG_KEPT (made), PG_KEPT (piece))));
+        PG_KEPT (c->is.touched), PG_KEPT (made), PG_KEPT (piece))));
     contact_set_active (s, active);
-    if (k->reading) c->again = made ? s->direct.revision + 1 : 0;
+    if (k->reading) c->compliance.again = made ? s->direct.revision + 1 : 0;
     PG_TRY (contact_route_keep (s, k));
     if (!c->pieces.n) return PG_OK;
     PG_TRY (k->numbers (k->context, "contact.force", c->pieces.dim * c->pieces.n, c->force));

@@ -31,7 +31,7 @@ void contact_push (pg_system *s, const double *d, double *residual, int follow)
     double t0 = pg_seconds ();
     memset (c->force, 0, dim * c->ncrack * sizeof *c->force);
     contact_gaps (c, d);
-    if (c->active) memset (c->nodal, 0, s->ndof * sizeof *c->nodal);
+    if (c->is.active) memset (c->nodal, 0, s->ndof * sizeof *c->nodal);
     int active = 0;
     for (size_t k = 0; k < c->ncrack; k++) {
         double *f = c->force + dim * k, *g = c->gap + dim * k, *before = c->before + (dim - 1) * k;

@@ -270,7 +270,7 @@ void platens_react (pg_system *s)
     contact_platens *w = &c->platens;
     size_t dim = c->pieces.dim;
     for (size_t i = 0; i < w->n; i++) memset (w->reaction[i], 0, sizeof w->reaction[i]);
-    for (size_t k = c->ncrack; w->n && c->active && k < c->pieces.n; k++) {
+    for (size_t k = c->ncrack; w->n && c->is.active && k < c->pieces.n; k++) {
         size_t piece = w->at[k - c->ncrack];
         double *to = w->reaction[w->all.piece[piece].platen - 1];
         for (size_t a = 0; a < dim; a++)
@@ -294,7 +294,7 @@ double platens_book (pg_system *s, double scale)
         double *old = w->booked + 2 * dim * piece;
         for (size_t a = 0; a < dim; a++) {
             size_t i = dim * k + a;
-            double f = c->active ? scale * c->force[i] : 0,
+            double f = c->is.active ? scale * c->force[i] : 0,
                    way = scale * (a ? -gain (w, piece, a) : c->gap[i] - c->initial[i]);
             work += 0.5 * (old[a] + f) * (way - old[dim + a]);
             old[a] = f, old[dim + a] = way;
@@ -353,7 +353,7 @@ void platens_doubt (pg_system *s)
     size_t dim = c->pieces.dim;
     double worst = 0, h = s->problem->cloud.h;
     size_t at = 0;
-    if ((w->warned & PLATENS_SLIDE) || !w->n || !c->active) return;
+    if ((w->warned & PLATENS_SLIDE) || !w->n || !c->is.active) return;
     for (size_t k = c->ncrack; k < c->pieces.n; k++) {
         const pg_contact_piece *piece = &c->pieces.piece[k];
         const pg_platen *p = &s->problem->boundary.platen[piece->platen - 1];

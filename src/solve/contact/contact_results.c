@@ -30,7 +30,7 @@ pg_status contact_show (pg_system *s, double scale)
     for (size_t k = 0; k < c->nshown; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         size_t i = c->pieces.dim * k;
-        double force = c->active ? scale / (c->weight * p->area) : 0;
+        double force = c->is.active ? scale / (c->weight * p->area) : 0;
         c->shown[k] = (pg_contact_values) { .path = p->path, .platen = p->platen,
                                             .x = { p->x[0], p->x[1], p->x[2] },
                                             .normal = { p->normal[0], p->normal[1], p->normal[2] },
@@ -38,7 +38,7 @@ pg_status contact_show (pg_system *s, double scale)
                                             .pressure = force * c->force[i]
                                                         + scale * c->rebound[k] / p->area,
                                             .gap = scale * (c->gap[i] - (p->platen ? 0 : c->initial[i])),
-                                            .status = c->active ? c->status[k] : PG_CONTACT_OPEN };
+                                            .status = c->is.active ? c->status[k] : PG_CONTACT_OPEN };
         contact_vector (&c->pieces, k, c->force + i + 1, force, c->shown[k].shear);
         contact_vector (&c->pieces, k, c->gap + i + 1, scale, c->shown[k].slip);
     }

@@ -18,8 +18,8 @@ static size_t rows_of (const struct system_contact *c) { return c->pieces.dim * 
 
 static pg_contact_path path_of (const struct system_contact *c, const double *slip)
 {
-    return (pg_contact_path){ c->pieces.n, c->pieces.dim, c->C, c->route.gap, c->route.rate, c->coefficient,
-                              c->cohesion, slip };
+    return (pg_contact_path){ c->pieces.n,   c->pieces.dim,  c->compliance.C, c->route.gap,
+                              c->route.rate, c->coefficient, c->cohesion,     slip };
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
@@ -74,7 +74,7 @@ static void show_forces (pg_system *s)
 {
     struct system_contact *c = s->contact;
     contact_set_active (s, c->route.touches);
-    if (c->active) pg_sparse_multiply (&c->G, c->force, c->nodal);
+    if (c->is.active) pg_sparse_multiply (&c->G, c->force, c->nodal);
     contact_count (s);
     c->now.at = c->route.from + c->route.track.s;
 }
@@ -157,7 +157,7 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
         for (size_t k = 0; k < c->pieces.n; k++) r->touches |= row[c->pieces.dim * k] < 0;
     }
     for (size_t k = 0; k < rows_of (c); k++) r->rate[k] -= r->gap[k];
-    c->touched = r->touches;
+    c->is.touched = r->touches;
     if (r->touches) PG_TRY (contact_condense (s, NULL));
     PG_TRY (begin_at (s, at));
     show_forces (s);
@@ -174,7 +174,8 @@ static void displacement_of (const pg_system *s, double share, const double *for
     for (size_t k = 0; k < s->ndof; k++)
         d[k] = share == 1 ? r->open[1][k] : r->open[0][k] + share * (r->open[1][k] - r->open[0][k]);
     for (size_t i = 0; r->touches && i < rows_of (c); i++)
-        for (size_t k = 0; force[i] != 0 && k < s->ndof; k++) d[k] += force[i] * c->Z[i * s->ndof + k];
+        for (size_t k = 0; force[i] != 0 && k < s->ndof; k++)
+            d[k] += force[i] * c->compliance.Z[i * s->ndof + k];
 }
 
 /* The line of the stretch at s = 0 or 1: its displacement, mended; what that changes is taken to the open

@@ -45,13 +45,15 @@ static void doubt_broken (const pg_system *s)
 static void clear_pairs (struct system_contact *c)
 {
     contact_route_clear (c);
-    pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
+    pg_free (c->compliance.Z), pg_free (c->compliance.C), pg_free (c->coefficient), pg_free (c->cohesion),
+        pg_free (c->before);
     pg_free (c->rebound), c->rebound = NULL;
     pg_free (c->press), c->press = NULL;
     pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status), pg_free (c->initial);
-    c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = c->initial = NULL;
+    c->compliance.Z = c->compliance.C = c->coefficient = c->cohesion = c->before = c->force = c->gap =
+        c->open = c->initial = NULL;
     c->status = NULL;
-    c->made = 0;
+    c->compliance.made = 0;
 }
 
 static void clear (struct system_contact *c)
@@ -128,8 +130,8 @@ static int grows_in_step (const pg_system *s, const pg_changes *changes)
 static void tell_blind (pg_system *s, const pg_contact_blind *blind)
 {
     char third[32] = "";
-    if (s->contact->said_blind || !blind->n || pg_criterion_of_bonds (s->problem->criterion)) return;
-    s->contact->said_blind = 1;
+    if (s->contact->is.said_blind || !blind->n || pg_criterion_of_bonds (s->problem->criterion)) return;
+    s->contact->is.said_blind = 1;
     if (s->problem->dim == 3) snprintf (third, sizeof third, ", %.6g", blind->x[2]);
     pg_statistics_warn (s->report,
                         "%zu point%s of crack faces, such as that at (%.6g, %.6g%s) m, %.2g %% of them, "
@@ -192,8 +194,8 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     if (!c) return PG_OK;
-    c->waits = grows_in_step (s, changes);
-    if (c->waits) return PG_OK;
+    c->is.waits = grows_in_step (s, changes);
+    if (c->is.waits) return PG_OK;
     double t0 = pg_seconds ();
     clear (c);
     c->stiffer = 1;
@@ -204,7 +206,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     c->pieces.dim = (size_t) s->problem->dim, c->ncrack = c->pieces.n;
     PG_TRY (options_blame (platens_refresh (s, state), s->options, "platens"));
     PG_TRY (make_pairs (s));
-    c->began = 1;
+    c->is.began = 1;
     /* in motion their mass holds them */
     if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
         PG_TRY (options_blame (loose_refresh (&c->loose, s), s->options, "boundary"));
@@ -233,7 +235,7 @@ double contact_energy (const pg_system *s)
 {
     const struct system_contact *c = s->contact;
     double sum = 0;
-    for (size_t i = 0; c && c->active && i < c->pieces.dim * c->ncrack; i++)
+    for (size_t i = 0; c && c->is.active && i < c->pieces.dim * c->ncrack; i++)
         sum += 0.5 * c->soft[i] * c->force[i] * c->force[i];
     return sum;
 }
@@ -252,12 +254,12 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     memcpy (old, c->force, n * sizeof *old);
     memcpy (c->open, c->gap, n * sizeof *old);
     for (size_t j = 0; j < n; j++)
-        for (size_t i = 0; old[j] != 0 && i < n; i++) c->open[i] -= c->C[j * n + i] * old[j];
+        for (size_t i = 0; old[j] != 0 && i < n; i++) c->open[i] -= c->compliance.C[j * n + i] * old[j];
     pg_contact_solution solution = { .force = c->force, .gap = c->gap, .status = c->status };
     if (contact_motions (s)) PG_TRY (contact_press_free (s, t, &solution, c->open, d));
     else {
-        pg_contact_problem problem = { c->pieces.n, c->pieces.dim, c->C, c->open, c->coefficient,
-                                       cohesion, c->history ? c->before : NULL };
+        pg_contact_problem problem = { c->pieces.n, c->pieces.dim, c->compliance.C, c->open, c->coefficient,
+                                       cohesion, c->is.history ? c->before : NULL };
         PG_TRY (pg_contact_solve (&solution, &problem));
     }
     pg_statistics *r = s->report;
@@ -266,8 +268,9 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     *change = 0;
     for (size_t i = 0; i < n; i++) {
         double step = c->force[i] - old[i];
-        *change = fmax (*change, fabs (step) * c->C[i * n + i]), size = fmax (size, fabs (c->open[i]));
-        for (size_t k = 0; step != 0 && k < s->ndof; k++) d[k] += step * c->Z[i * s->ndof + k];
+        *change = fmax (*change, fabs (step) * c->compliance.C[i * n + i]),
+        size = fmax (size, fabs (c->open[i]));
+        for (size_t k = 0; step != 0 && k < s->ndof; k++) d[k] += step * c->compliance.Z[i * s->ndof + k];
     }
     *change = size > 0 ? *change / size : 0;
     pg_sparse_multiply (&c->G, c->force, c->nodal);
@@ -288,7 +291,7 @@ void contact_count (pg_system *s)
         size_t i = c->pieces.dim * k;
         double open = c->gap[i] - (k < c->ncrack ? c->initial[i] : 0);
         r->contact.overlap = fmax (r->contact.overlap, -open);
-        if (!c->active || c->status[k] == PG_CONTACT_OPEN) r->contact.open++;
+        if (!c->is.active || c->status[k] == PG_CONTACT_OPEN) r->contact.open++;
         else if (c->status[k] == PG_CONTACT_STICK) r->contact.stick++;
         else r->contact.sliding++;
     }
@@ -332,7 +335,7 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics 
     if (n) contact_gaps (c, d);
     s->choice.begins = 0;                                     /* first guesses are those of the open faces */
     double change = 1;
-    int closes = c->touched = any_overlap (c) || contact_motions (s) > 0;
+    int closes = c->is.touched = any_overlap (c) || contact_motions (s) > 0;
     if (closes) PG_TRY (contact_condense (s, dyn));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
         PG_TRY (press (s, t, d, &change));
@@ -350,7 +353,7 @@ static pg_status check_proportion (const pg_system *s)
 {
     const struct system_contact *c = s->contact;
     if (!s->options->event) return PG_OK;
-    for (size_t k = c->ncrack; c->active && k < c->pieces.n; k++) {
+    for (size_t k = c->ncrack; c->is.active && k < c->pieces.n; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         if (!(c->platens.distance[c->platens.at[k - c->ncrack]] > 0) || !(c->force[c->pieces.dim * k] > 0))
             continue;
@@ -367,7 +370,7 @@ static pg_status check_proportion (const pg_system *s)
 static pg_status solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
-    s->contact->moves = dyn != NULL, s->contact->weight = dyn ? dyn->contact : 1;
+    s->contact->is.moves = dyn != NULL, s->contact->weight = dyn ? dyn->contact : 1;
     for (;;) {
         PG_TRY (solve_pairs (s, t, d, dyn, residual));
         if (!platens_look (s, d)) break;
@@ -427,7 +430,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
            straight = pg_tip_straight (state->paths, tip, PG_CONTACT_TURN);
     pg_tip_chord (state->paths, tip, fmin (CHORD * h, straight), from, e);
     *out = (pg_tip_faces){ .nearest = INFINITY };
-    for (size_t k = 0; c && c->active && k < c->ncrack; k++) {
+    for (size_t k = 0; c && c->is.active && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
@@ -534,7 +537,7 @@ pg_status contact_create (pg_system *s)
     s->contact->setting = o->contact;
     /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
     /* loads with a constant part: contact_route.c */
-    s->contact->history = !o->event, s->contact->weight = 1;
+    s->contact->is.history = !o->event, s->contact->weight = 1;
     PG_ALLOC (s->contact->nodal, s->ndof);
     s->contact->pieces.dim = (size_t) s->problem->dim;
     if (platens) PG_TRY (platens_create (s));

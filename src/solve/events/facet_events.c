@@ -23,8 +23,8 @@ static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *
     pg_status now = event_solve (s);
     if (event_ended (s, state, factor, now)) {
         *ended = 1;
-        if (!b->growth->closed) {
-            b->growth->needed -= b->growth->event_energy;   /* nothing tells what they took */
+        if (!b->growth->event.closed) {
+            b->growth->needed -= b->growth->event.energy;   /* nothing tells what they took */
             s->report.energy.fracture = b->growth->needed;
             goto done;
         }
@@ -48,7 +48,7 @@ static pg_status way_end (pg_solver *s, pg_state *state, double factor, double *
 {
     pg_status status = PG_OK;
     double next;
-    int began = s->break_loop.growth->began, affine = events_of (s)->base != NULL;
+    int began = s->break_loop.growth->event.began, affine = events_of (s)->base != NULL;
     if (began && affine && s->break_loop.system.contact) {
         *end = factor;
         return affine_stay (s, state);
@@ -84,7 +84,7 @@ done:
  * it would be motion, and is no work of the loads at rest. */
 static void take_no_more (pg_solver *s, pg_step *step)
 {
-    double more = step->dissipated - s->break_loop.growth->event_energy;
+    double more = step->dissipated - s->break_loop.growth->event.energy;
     if (more > 0) s->break_loop.work -= more, step->dissipated -= more;
 }
 
@@ -92,7 +92,7 @@ static void take_no_more (pg_solver *s, pg_step *step)
  * so is that of rounding. */
 static void doubt_load (pg_solver *s, pg_step *step)
 {
-    if (!s->break_loop.growth->tried) return;
+    if (!s->break_loop.growth->event.tried) return;
     step->unjudged++;
     pg_statistics_warn (&s->report,
                         "the last facet cuts a loaded part of the body off from a tip without room for a "
@@ -125,8 +125,8 @@ static pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_s
     PG_TRY (facet_grow (b, state, factor - stage_start (s), factor));
     step->event = 1;
     state->events++, s->report.events++;
-    for (int closed = g->closed; more; closed |= g->closed) {
-        g->closed |= closed;
+    for (int closed = g->event.closed; more; closed |= g->event.closed) {
+        g->event.closed |= closed;
         PG_TRY (solve_anew (s, state, factor, &ended));
         step->nbroken = b->nbroken, step->broken = b->broken;
         if (ended) break;
@@ -140,7 +140,7 @@ static pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_s
     PG_TRY (way_end (s, state, factor, &end));
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy.strain - strain);
-    if (!g->going || e->arrested) take_no_more (s, step);
+    if (!g->event.going || e->arrested) take_no_more (s, step);
     PG_TRY (event_secant (s, &now));
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));

@@ -222,7 +222,7 @@ static void balance_energy (pg_solver *s, instability *u, const pg_state *state,
     r->energy.kinetic = newmark_kinetic (&u->scheme, state->v);
     r->energy.strain = b->work_balance.strain;
     double lost = b->work - b->work0 - (r->energy.strain + r->energy.kinetic - b->stored0);
-    int opening = b->growth && b->growth->start.nhold > 0;
+    int opening = b->growth && b->growth->motion.start.nhold > 0;
     double taken = broke || opening ? damped (&u->scheme, s->backup, state) : lost;
     /* Steps of settling stop the body within one: dt v C v is far above what there is to lose, and facets
      * never give energy to the body. */

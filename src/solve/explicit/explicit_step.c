@@ -234,7 +234,7 @@ static pg_status run_tips (pg_solver *s, pg_state *state, double t)
         state->a[i] = sys->balance.residual[i] * m->inverse[i] - c * state->v[i];
         state->v[i] += 0.5 * dt * state->a[i];
     }
-    PG_TRY (facet_move (b, state, t, state->d, &b->growth->top, &any));
+    PG_TRY (facet_move (b, state, t, state->d, &b->growth->motion.top, &any));
     if (any) state->events++, s->report.events++;
 done:
     memcpy (state->v, sys->balance.full, sys->ndof * sizeof *sys->balance.full);
@@ -457,7 +457,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);
     step->nbroken = b->nbroken, step->broken = b->broken;
-    step->utilisation = b->growth ? b->growth->top : breaks ? NAN : 0;
+    step->utilisation = b->growth ? b->growth->motion.top : breaks ? NAN : 0;
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     if (b->system.contact) contact_count (&b->system);
     PG_TRY (contact_show (&b->system, 1));

@@ -24,7 +24,7 @@ enum { STRAIGHT = 2 };                                 /* facets until the branc
 int facet_branches (const break_loop *b, const pg_state *state, size_t i)
 {
     const facet_growth *g = b->growth;
-    const facet_run *r = &g->run[i];
+    const facet_run *r = &g->motion.run[i];
     const pg_tip_field *f = &g->field[i];
     const pg_criterion *c = b->system.problem->criterion;
     size_t n;
@@ -57,7 +57,7 @@ pg_status facet_fork (break_loop *b, pg_state *state, size_t i, double t, const 
     const pg_tip_field f = g->field[i];
     facet_candidate branch[2];
     facet_candidate end = { .tip = (long) i, .to = { f.x[0], f.x[1] }, .close = 1 };
-    facet_run run = g->run[i];
+    facet_run run = g->motion.run[i];
     double ahead = atan2 (f.e[1], f.e[0]), l = facet_length (g, &f), c_R = run.speed / (1 - run.g);
     *done = 0;
     for (int k = 0; k < 2; k++)
@@ -73,7 +73,7 @@ pg_status facet_fork (break_loop *b, pg_state *state, size_t i, double t, const 
     run.way = 0, run.length = l, run.straight = STRAIGHT * (1 - 1e-9) * l;
     size_t last = state->paths->ntip;
     PG_TRY (facet_make_room (g, last));
-    g->run[last - 1] = g->run[last - 2] = run;
+    g->motion.run[last - 1] = g->motion.run[last - 2] = run;
     const facet_hold what = { .tip = (long) last - 2, .length = facet_zone (b) * l,
                               .energy = branch[0].energy + branch[1].energy };
     PG_TRY (facet_hold_begin (b, t, d, &what, NULL));

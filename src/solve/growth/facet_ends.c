@@ -14,7 +14,7 @@ static int is_lost (const break_loop *b, const pg_state *state, size_t i)
     const pg_tip_field *f = &g->field[i];
     pg_fracture_limits limits;
     if (!state->paths->tip[i].open || !isnan (f->near) || f->limit == PG_ROOM_FACES) return 0;
-    if (i < g->nrun && g->run[i].straight > 0) return 0;                   /* a new branch */
+    if (i < g->motion.nrun && g->motion.run[i].straight > 0) return 0;                   /* a new branch */
     for (size_t k = 0; k < g->ntrial; k++)
         if (g->trial[k].tip == (long) i && facet_trial_utilisation (g, &g->trial[k], 1) > 0) return 0;
     return facet_limits (b, f->x, atan2 (f->e[1], f->e[0]), &limits);
@@ -26,7 +26,7 @@ static int overlaps (const break_loop *b, size_t i, double factor)
     const facet_growth *g = b->growth;
     const pg_tip_field *f = &g->field[i];
     double l[2], K[3];
-    if (b->system.contact || g->moving || isnan (f->near) || f->closed) return 0;
+    if (b->system.contact || g->motion.moving || isnan (f->near) || f->closed) return 0;
     pg_tip_combine (f, facet_factors (g, factor, l), l, NULL, K, NULL);
     return K[0] < 0 && fabs (K[0]) > 1e-3 * fabs (K[1]);
 }
@@ -58,7 +58,7 @@ long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
     if (!g || (!state->paths && !g->fronts)) return 0;
     long n = count_unjudged (b, state, factor, &open);
     /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
-    if (open && g->ntip == 0) return g->unjudged;
+    if (open && g->ntip == 0) return g->motion.unjudged;
     /* where cracks have ended and none can begin nobody looks at what is left of the body */
     return n ? n : !open && !trial_has_strength (b->system.problem);
 }

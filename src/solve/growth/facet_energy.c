@@ -24,7 +24,7 @@ void facet_doubt_energy (pg_solver *s, const pg_state *state, double t)
     facet_growth *g = s->break_loop.growth;
     const pg_statistics *r = &s->report;
     const pg_crack_paths *w = state->paths;
-    if (!g || !g->moving || !w || !(s->options.flags & PG_SOLVER_NEEDS_DENSITY)) return;
+    if (!g || !g->motion.moving || !w || !(s->options.flags & PG_SOLVER_NEEDS_DENSITY)) return;
     if (g->said & FACET_SAID_ENERGY || !w->cracks.n) return;
     double share = r->energy.fracture > 0 ? r->energy.dissipated / r->energy.fracture : 1;
     if (!out_of_bounds (share, w->length / s->problem->cloud.h, s->finished)) return;

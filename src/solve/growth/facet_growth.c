@@ -73,7 +73,7 @@ void facet_free (break_loop *b)
     trials_free (&g->trials);
     fronts_free (&g->fronts);
     pg_nearest_free (&g->near);
-    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->run);
+    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->motion.run);
     facet_hold_free (g);
     b->system.balance.held = NULL;
     pg_free (g);
@@ -87,7 +87,7 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     facet_growth *g = b->growth;
     if (!g) return PG_OK;
     PG_TRY (pg_keep_fields (k, "facets", "said", "needed", 1, PG_ROWS (
-        PG_KEPT_IN (g->said, 0, FACET_SAID_ALL, "what was said of facets"), PG_KEPT (g->unjudged),
+        PG_KEPT_IN (g->said, 0, FACET_SAID_ALL, "what was said of facets"), PG_KEPT (g->motion.unjudged),
         PG_KEPT (g->needed))));
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy.fracture = g->needed;
     PG_TRY (facet_motion_keep (b, k));
@@ -118,7 +118,7 @@ static int closes (const break_loop *b, const pg_tip_field *f, const double *K)
 {
     pg_fracture_limits limits;
     if (!(K[0] < 0) || !(fabs (K[0]) > 1e-3 * fabs (K[1]))) return 0;
-    if (!b->growth->moving || !facet_limits (b, f->x, 0, &limits)) return 1;
+    if (!b->growth->motion.moving || !facet_limits (b, f->x, 0, &limits)) return 1;
     return K[0] * K[0] > 0.01 * f->modulus * limits.energy;
 }
 
@@ -132,7 +132,7 @@ static void doubt_release (break_loop *b, const pg_state *state, size_t i, doubl
     double l[2];
     int n = facet_factors (g, 1, l);
     double off = pg_tip_uncertainty (f, n, l);
-    if (g->said & FACET_SAID_UNKNOWN || g->moving || !(off > doubtful) || !(top > nothing)
+    if (g->said & FACET_SAID_UNKNOWN || g->motion.moving || !(off > doubtful) || !(top > nothing)
         || !(facet_judge (b, state, i, 1, NULL, NULL) >= decisive * top))
         return;
     pg_statistics_warn (b->system.report,
@@ -255,7 +255,7 @@ static pg_status tips_measure (break_loop *b, const pg_state *state, const doubl
     pg_system *s = &b->system;
     pg_state measured = *state;
     double *a = NULL;
-    if (g->moving && s->contact) {
+    if (g->motion.moving && s->contact) {
         PG_ALLOC (a, s->ndof);
         memcpy (a, state->a, s->ndof * sizeof *a);
         contact_accelerate (s, a);
@@ -295,7 +295,7 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
     if (base) d[1] = g->ramp;
     PG_TRY (facet_lay_out (b, state));
     PG_TRY (in_space (b) ? fronts_measure (b, state, d, times) : tips_measure (b, state, d, times));
-    if (!g->moving) PG_TRY (trial_facets (b, state, d, times));
+    if (!g->motion.moving) PG_TRY (trial_facets (b, state, d, times));
     if (in_space (b)) fronts_tell (b, state);
     else tell (b, state);
     g->fresh = 1;
@@ -402,13 +402,14 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
                                  &b->changes));
     PG_TRY (close_others (b, state, c));
     kill_listed (b, state);
-    g->needed += c->energy, g->event_energy += c->energy, g->closed |= c->close, g->began |= c->tip < 0;
-    g->going |= c->tip >= 0 ? !c->close : c->open != 0;
-    if (g->event_tip < 0 && !(c->tip >= 0 && c->close)) {
+    g->needed += c->energy, g->event.energy += c->energy, g->event.closed |= c->close,
+        g->event.began |= c->tip < 0;
+    g->event.going |= c->tip >= 0 ? !c->close : c->open != 0;
+    if (g->event.tip < 0 && !(c->tip >= 0 && c->close)) {
         const double *from = c->tip >= 0 ? g->field[c->tip].x : c->from;
         long last = (long) state->paths->ntip - 1;
-        g->event_tip = c->tip >= 0 ? c->tip : c->open == 3 ? last - 1 : c->open ? last : -1;
-        g->event_length = hypot (c->to[0] - from[0], c->to[1] - from[1]);
+        g->event.tip = c->tip >= 0 ? c->tip : c->open == 3 ? last - 1 : c->open ? last : -1;
+        g->event.length = hypot (c->to[0] - from[0], c->to[1] - from[1]);
     }
 done:
     return status;
@@ -442,7 +443,7 @@ static pg_status grow_trials (break_loop *b, pg_state *state, double factor, dou
             skip |= c.tip >= 0 ? g->trial[k].tip == c.tip : g->trial[k].tip < 0 && is_near (&g->trial[k], &c);
         if (skip) continue;
         PG_TRY (grow_one (b, state, &c));
-        g->tried |= c.tip >= 0;
+        g->event.tried |= c.tip >= 0;
     }
 done:
     return status;
@@ -468,7 +469,7 @@ pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    b->changes.n = 0, *grew = 0, g->closed = 0;
+    b->changes.n = 0, *grew = 0, g->event.closed = 0;
     if (in_space (b)) PG_TRY (fronts_run_out (b, state, grew));
     for (size_t i = 0; i < g->ntip && !in_space (b); i++) {
         facet_candidate c;
@@ -490,7 +491,8 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     facet_growth *g = b->growth;
     double top = facet_utilisation (b, state, factor), angle,
            least = top * (1 - (b->system.contact ? CLOSED_TIE : facet_tie));
-    b->changes.n = 0, g->closed = g->began = g->going = g->tried = 0, g->event_energy = 0, g->event_tip = -1;
+    b->changes.n = 0, g->event.closed = g->event.began = g->event.going = g->event.tried = 0,
+    g->event.energy = 0, g->event.tip = -1;
     if (in_space (b)) {
         PG_TRY (fronts_grow (b, state, factor, least));
         PG_TRY (log_all (b, state, top, t));
@@ -525,7 +527,7 @@ static pg_status round_at_rest (break_loop *b, pg_state *state, double t, const 
 {
     pg_status status = PG_OK;
     const pg_solver_options *o = b->system.options;
-    *over = 0, b->growth->moving = 0;
+    *over = 0, b->growth->motion.moving = 0;
     PG_TRY (facet_measure (b, state, NULL, d, t));
     step->utilisation = facet_utilisation (b, state, 1);
     if (!(step->utilisation > 1)) goto done;

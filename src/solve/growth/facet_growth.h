@@ -58,6 +58,28 @@ typedef struct {
     facet_hold *hold; size_t nhold, cap_hold;
 } facet_start;
 
+/* What the event at hand did. */
+typedef struct {
+    /* A tip met the surface or a crack; a new crack came into being; a tip goes on; a
+     * trial facet of a tip is among it; what all facets take, J. */
+    int     closed, began, going, tried;
+    double  energy;
+    /* The first tip that grew and goes on, -1: none; how far, m. */
+    long    tip;
+    double  length;
+} facet_event_marks;
+/* Facets of a body in motion. */
+typedef struct {
+    /* How every tip runs, the facets that open, the sum of what they hold, N (ndof), and the
+     * forces before a cut, N (ndof). */
+    int     moving;
+    long    unjudged;  /* tips that the last measure could not judge */
+    facet_run  *run; size_t nrun, cap_run;
+    facet_hold *hold; size_t nhold, cap_hold;
+    double *held, *force_before;
+    double  since, top;  /* time since the tips were last looked at, s; largest sqrt (G (v) / G0) then */
+    facet_start start;
+} facet_motion_state;
 typedef struct facet_growth {
     double  length;                                    /* of a facet, m; 0: the local spacing */
     pg_nearest *near;                                  /* nodes, for the material at a place */
@@ -74,22 +96,8 @@ typedef struct facet_growth {
     struct front_growth *fronts;                       /* in space, front_growth.c; else NULL */
     /* energy that all facets took; at the start of the step, J */
     double  needed, needed0;
-    /* Of the event at hand: a tip met the surface or a crack; a new crack came into being; a tip goes on; a
-     * trial facet of a tip is among it; what all facets take, J. */
-    int     closed, began, going, tried;
-    double  event_energy;
-    /* In motion: how every tip runs, the facets that open, the sum of what they hold, N (ndof), and the
-     * forces before a cut, N (ndof). */
-    int     moving;
-    long    unjudged;  /* in motion: tips that the last measure could not judge */
-    facet_run  *run; size_t nrun, cap_run;
-    facet_hold *hold; size_t nhold, cap_hold;
-    double *held, *force_before;
-    double  since, top;  /* time since the tips were last looked at, s; largest sqrt (G (v) / G0) then */
-    facet_start start;
-    /* The first tip that grew in the event at hand and goes on, -1: none; how far, m. */
-    long    event_tip;
-    double  event_length;
+    facet_event_marks event;                           /* of the event at hand */
+    facet_motion_state motion;
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
 enum {

@@ -44,11 +44,12 @@ static void clear (facet_hold *hold, size_t first, size_t n)
 
 void facet_hold_free (facet_growth *g)
 {
-    clear (g->hold, 0, g->nhold), clear (g->start.hold, 0, g->start.nhold);
-    pg_free (g->hold), pg_free (g->start.hold), pg_free (g->start.run);
-    pg_free (g->held), pg_free (g->force_before);
-    g->hold = NULL, g->held = g->force_before = NULL, g->nhold = g->cap_hold = 0;
-    g->start = (facet_start) { 0 };
+    clear (g->motion.hold, 0, g->motion.nhold), clear (g->motion.start.hold, 0, g->motion.start.nhold);
+    pg_free (g->motion.hold), pg_free (g->motion.start.hold), pg_free (g->motion.start.run);
+    pg_free (g->motion.held), pg_free (g->motion.force_before);
+    g->motion.hold = NULL, g->motion.held = g->motion.force_before = NULL,
+    g->motion.nhold = g->motion.cap_hold = 0;
+    g->motion.start = (facet_start) { 0 };
 }
 
 /* The sum of all into `held`, which the system adds to its forces; what facets have taken as far as they are
@@ -56,15 +57,15 @@ void facet_hold_free (facet_growth *g)
 void facet_hold_sum (break_loop *b)
 {
     facet_growth *g = b->growth;
-    if (!g->held) return;
+    if (!g->motion.held) return;
     double closed = 0;
-    memset (g->held, 0, b->system.ndof * sizeof *g->held);
-    for (size_t k = 0; k < g->nhold; k++) {
-        const facet_hold *h = &g->hold[k];
-        for (size_t i = 0; i < h->n; i++) g->held[h->unknown[i]] += left (h) * h->force[i];
+    memset (g->motion.held, 0, b->system.ndof * sizeof *g->motion.held);
+    for (size_t k = 0; k < g->motion.nhold; k++) {
+        const facet_hold *h = &g->motion.hold[k];
+        for (size_t i = 0; i < h->n; i++) g->motion.held[h->unknown[i]] += left (h) * h->force[i];
         closed += (1 - taken_at (h, h->way)) * h->energy;
     }
-    b->system.balance.held = g->nhold ? g->held : NULL;
+    b->system.balance.held = g->motion.nhold ? g->motion.held : NULL;
     b->system.report->energy.fracture = g->needed - closed;
 }
 
@@ -80,9 +81,9 @@ pg_status facet_hold_before (break_loop *b, double t, const double *d)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     pg_system *s = &b->system;
-    if (!g->force_before) PG_ALLOC (g->force_before, s->ndof);
-    if (!g->held) PG_ALLOC (g->held, s->ndof);
-    PG_TRY (forces_at (s, t, d, g->force_before));
+    if (!g->motion.force_before) PG_ALLOC (g->motion.force_before, s->ndof);
+    if (!g->motion.held) PG_ALLOC (g->motion.held, s->ndof);
+    PG_TRY (forces_at (s, t, d, g->motion.force_before));
 done:
     return status;
 }
@@ -99,8 +100,8 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, const face
     PG_ALLOC (after, s->ndof);
     PG_TRY (forces_at (s, t, d, after));
     for (size_t i = 0; i < s->ndof; i++) {
-        double f = g->force_before[i] - after[i];
-        g->force_before[i] = after[i];
+        double f = g->motion.force_before[i] - after[i];
+        g->motion.force_before[i] = after[i];
         if (borne) h.drop -= 0.5 * borne[i] * d[i], f -= borne[i];
         after[i] = f;
         most = fmax (most, fabs (f));
@@ -112,8 +113,8 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, const face
     for (size_t i = 0; i < s->ndof; i++)
         if (fabs (after[i]) > 1e-15 * most) h.unknown[h.n] = (long) i, h.force[h.n++] = after[i];
     h.product = product (&h, d), h.drop -= 0.5 * h.product;        /* of all that has changed */
-    PG_GROW (g->hold, g->cap_hold, g->nhold + 1);
-    g->hold[g->nhold++] = h;
+    PG_GROW (g->motion.hold, g->motion.cap_hold, g->motion.nhold + 1);
+    g->motion.hold[g->motion.nhold++] = h;
     h.unknown = NULL, h.force = NULL;
     facet_hold_sum (b);
 done:
@@ -128,8 +129,8 @@ void facet_hold_account (break_loop *b, size_t tip, const double *d, double *tak
     facet_growth *g = b->growth;
     double zone = facet_zone (b);
     *taken = *needed = 0;
-    for (size_t k = 0; k < g->nhold; k++) {
-        facet_hold *h = &g->hold[k];
+    for (size_t k = 0; k < g->motion.nhold; k++) {
+        facet_hold *h = &g->motion.hold[k];
         if (h->tip != (long) tip || !h->alone) continue;
         double q = product (h, d), l0 = left_at (h, h->way0), l1 = left (h), facet = h->length / zone;
         double part = h->way0 < facet ? fmin (1, (h->way - h->way0) / (facet - h->way0)) * h->drop : 0;
@@ -144,10 +145,10 @@ void facet_hold_drop (break_loop *b, int all)
 {
     facet_growth *g = b->growth;
     size_t kept = 0;
-    for (size_t k = 0; k < g->nhold; k++)
-        if (!all && left (&g->hold[k]) > 0) g->hold[kept++] = g->hold[k];
-        else clear (g->hold, k, k + 1);
-    g->nhold = kept;
+    for (size_t k = 0; k < g->motion.nhold; k++)
+        if (!all && left (&g->motion.hold[k]) > 0) g->motion.hold[kept++] = g->motion.hold[k];
+        else clear (g->motion.hold, k, k + 1);
+    g->motion.nhold = kept;
     facet_hold_sum (b);
 }
 
@@ -176,12 +177,12 @@ static pg_status keep_one (break_loop *b, size_t i, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     const facet_growth *g = b->growth;
-    facet_hold *h = &g->hold[i];
+    facet_hold *h = &g->motion.hold[i];
     char name[2][32];
     size_t n = h->n;
     snprintf (name[0], sizeof name[0], "opening.%zu", i), snprintf (name[1], sizeof name[1], "opened.%zu", i);
     PG_TRY (pg_keep_fields (k, "facets", name[0], name[1], 1, PG_ROWS (
-        PG_KEPT_IN (h->tip, 0, (long) g->nrun - 1, "the tip of a facet that opens"),
+        PG_KEPT_IN (h->tip, 0, (long) g->motion.nrun - 1, "the tip of a facet that opens"),
         PG_KEPT_IN (n, 0, b->system.ndof, "the unknowns that a facet holds"), PG_KEPT (h->alone),
         PG_KEPT (h->way), PG_KEPT (h->length), PG_KEPT (h->energy), PG_KEPT (h->way0), PG_KEPT (h->product),
         PG_KEPT (h->drop))));
@@ -203,18 +204,18 @@ pg_status facet_hold_keep (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    long count = (long) g->nhold;
+    long count = (long) g->motion.nhold;
     PG_TRY (k->counts (k->context, "facets.holding", 1, &count));
     PG_KEEP_BOUND (k, "the facets that open", count, 0,
                    (long) b->system.problem->bonds.first[PG_BOND_SETS]);
     if (k->reading) {
         facet_hold_free (g);
-        PG_ALLOC (g->held, b->system.ndof);
-        g->hold = NULL, g->cap_hold = 0;
-        PG_GROW (g->hold, g->cap_hold, (size_t) count);
-        g->nhold = (size_t) count;
+        PG_ALLOC (g->motion.held, b->system.ndof);
+        g->motion.hold = NULL, g->motion.cap_hold = 0;
+        PG_GROW (g->motion.hold, g->motion.cap_hold, (size_t) count);
+        g->motion.nhold = (size_t) count;
     }
-    for (size_t i = 0; i < g->nhold; i++) PG_TRY (keep_one (b, i, k));
+    for (size_t i = 0; i < g->motion.nhold; i++) PG_TRY (keep_one (b, i, k));
     facet_hold_sum (b);
 done:
     return status;

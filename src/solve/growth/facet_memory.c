@@ -51,7 +51,7 @@ pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_ke
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     if (!g) return PG_OK;
-    int fresh = g->fresh && !g->moving, nfield = fresh ? g->nfield : 1,
+    int fresh = g->fresh && !g->motion.moving, nfield = fresh ? g->nfield : 1,
         ended = b->system.report->ended_by != NULL;
     size_t ntrial = fresh ? g->ntrial : 0;
     PG_TRY (pg_keep_fields (k, "facets", "measured", NULL, 1, PG_ROWS (

@@ -59,8 +59,9 @@ void facet_doubt_step (break_loop *b, double dt)
 pg_status facet_make_room (facet_growth *g, size_t ntip)
 {
     pg_status status = PG_OK;
-    PG_GROW (g->run, g->cap_run, ntip);
-    for (; g->nrun < ntip; g->nrun++) g->run[g->nrun] = (facet_run) { .mean = 1, .steady = 1, .g = 1 };
+    PG_GROW (g->motion.run, g->motion.cap_run, ntip);
+    for (; g->motion.nrun < ntip; g->motion.nrun++)
+        g->motion.run[g->motion.nrun] = (facet_run){ .mean = 1, .steady = 1, .g = 1 };
 done:
     return status;
 }
@@ -77,14 +78,14 @@ void facet_forward (break_loop *b, double dt)
 {
     facet_growth *g = b->growth;
     int ends = !isfinite (dt);
-    for (size_t i = 0; i < g->nrun; i++) {
-        facet_run *r = &g->run[i];
+    for (size_t i = 0; i < g->motion.nrun; i++) {
+        facet_run *r = &g->motion.run[i];
         r->way = ends ? r->length : r->way + r->speed * dt;
         r->come += ends ? 0 : r->speed * dt;
     }
-    for (size_t k = 0; k < g->nhold; k++) {
-        facet_hold *h = &g->hold[k];
-        h->way = ends ? h->length : h->way + g->run[h->tip].speed * dt;
+    for (size_t k = 0; k < g->motion.nhold; k++) {
+        facet_hold *h = &g->motion.hold[k];
+        h->way = ends ? h->length : h->way + g->motion.run[h->tip].speed * dt;
     }
     if (ends) facet_hold_drop (b, 0);
     else facet_hold_sum (b);
@@ -92,8 +93,8 @@ void facet_forward (break_loop *b, double dt)
 
 double facet_trust (const facet_growth *g, size_t i)
 {
-    if (!g->moving || i >= g->nrun || !(g->run[i].shown > 0)) return 1;
-    return fmin (most_trust, fmax (1 / most_trust, g->run[i].taken / g->run[i].shown));
+    if (!g->motion.moving || i >= g->motion.nrun || !(g->motion.run[i].shown > 0)) return 1;
+    return fmin (most_trust, fmax (1 / most_trust, g->motion.run[i].taken / g->motion.run[i].shown));
 }
 
 /* The speed of a tip for the steps to come. share: G (v) / G0; dt: since it was last looked at. */
@@ -113,7 +114,7 @@ static void pace (facet_run *r, double share, double c_R, double h, double dt)
 static void compare (break_loop *b, size_t i, const double *d, double share, double way)
 {
     facet_growth *g = b->growth;
-    facet_run *r = &g->run[i];
+    facet_run *r = &g->motion.run[i];
     double taken, needed, zone = facet_zone (b) * facet_length (g, &g->field[i]);
     facet_hold_account (b, i, d, &taken, &needed);
     if (r->come > 0 && needed > 0) {
@@ -129,7 +130,7 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     size_t i = (size_t) c->tip;
-    facet_run *r = &g->run[i];
+    facet_run *r = &g->motion.run[i];
     double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]), *borne = NULL;
     facet_faces faces;
     PG_TRY (facet_faces_before (b, state, d, g->field[i].x, c->to, &faces));
@@ -144,7 +145,7 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     const facet_hold what = { .tip = c->tip, .length = zone, .energy = c->energy,
                               .alone = g->field[i].wide > zone - equal };
     PG_TRY (facet_hold_begin (b, t, d, &what, borne));
-    facet_doubt_cut (b, c, t, g->hold[g->nhold - 1].drop);
+    facet_doubt_cut (b, c, t, g->motion.hold[g->motion.nhold - 1].drop);
     if (!(r->shown > 0)) r->taken = r->shown = facet_zone (b) * c->energy;
     r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
     r->length = length, r->straight -= length;
@@ -160,7 +161,7 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
                        facet_candidate *c)
 {
     facet_growth *g = b->growth;
-    facet_run *r = &g->run[i];
+    facet_run *r = &g->motion.run[i];
     const pg_tip_field *f = &g->field[i];
     if (r->straight > r->length) {
         facet_place (b, state, i, atan2 (f->e[1], f->e[0]), 0, c);
@@ -185,12 +186,12 @@ int facet_due (break_loop *b, double dt)
     facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
     double c_R = 0;
-    g->since += dt;
+    g->motion.since += dt;
     for (size_t m = 0; m < p->nmaterial; m++)
         c_R = fmax (c_R, pg_material_waves (&p->material[m]).rayleigh);
-    if (!(g->since * c_R < between * p->cloud.h) || g->nrun == 0) return 1;
-    for (size_t i = 0; i < g->nrun; i++)
-        if (g->run[i].speed > 0 && g->run[i].way >= g->run[i].length) return 1;
+    if (!(g->motion.since * c_R < between * p->cloud.h) || g->motion.nrun == 0) return 1;
+    for (size_t i = 0; i < g->motion.nrun; i++)
+        if (g->motion.run[i].speed > 0 && g->motion.run[i].way >= g->motion.run[i].length) return 1;
     return 0;
 }
 
@@ -201,7 +202,7 @@ static pg_status run_tip (break_loop *b, pg_state *state, size_t i, double t, co
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    facet_run *r = &g->run[i];
+    facet_run *r = &g->motion.run[i];
     const pg_tip_field *f = &g->field[i];
     facet_candidate c;
     int forks = 0;
@@ -248,8 +249,8 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    double dt = g->since;
-    *any = 0, *top = 0, g->moving = 1, g->since = 0;
+    double dt = g->motion.since;
+    *any = 0, *top = 0, g->motion.moving = 1, g->motion.since = 0;
     PG_TRY (facet_measure (b, state, NULL, d, t));
     PG_TRY (tell_of_starts (b, state, t, d));
     size_t n = g->ntip;
@@ -261,7 +262,7 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
         if (state->paths->tip[i].open)
             PG_TRY (run_tip (b, state, i, t, d, dt, over * over, angle, slides, any));
     }
-    g->unjudged = facet_unjudged (b, state, 1);
+    g->motion.unjudged = facet_unjudged (b, state, 1);
     facet_hold_drop (b, 0);
 done:
     return status;
@@ -271,7 +272,7 @@ done:
 void facet_rest (break_loop *b)
 {
     facet_growth *g = b->growth;
-    g->moving = 0, g->fresh = 0, g->nrun = 0, g->since = 0;
+    g->motion.moving = 0, g->fresh = 0, g->motion.nrun = 0, g->motion.since = 0;
     facet_hold_drop (b, 1);
 }
 
@@ -280,14 +281,14 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     facet_rest (b);
-    if (g->event_tip < 0) return PG_OK;                /* no tip goes on: the crack has ended */
-    size_t i = (size_t) g->event_tip;
+    if (g->event.tip < 0) return PG_OK;                /* no tip goes on: the crack has ended */
+    size_t i = (size_t) g->event.tip;
     PG_TRY (facet_make_room (g, state->paths->ntip));
-    g->run[i].length = g->event_length;
-    g->run[i].taken = g->run[i].shown = facet_zone (b) * g->event_energy;
-    g->run[i].speed = g->run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
-    const facet_hold what = { .tip = (long) i, .length = facet_zone (b) * g->event_length,
-                              .energy = g->event_energy, .alone = 1 };
+    g->motion.run[i].length = g->event.length;
+    g->motion.run[i].taken = g->motion.run[i].shown = facet_zone (b) * g->event.energy;
+    g->motion.run[i].speed = g->motion.run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
+    const facet_hold what = { .tip = (long) i, .length = facet_zone (b) * g->event.length,
+                              .energy = g->event.energy, .alone = 1 };
     PG_TRY (facet_hold_begin (b, t, d, &what, NULL));
 done:
     return status;
@@ -298,14 +299,15 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    PG_KEEP_LENGTH (k, "facets", "running", g->run, g->nrun, g->cap_run,
+    PG_KEEP_LENGTH (k, "facets", "running", g->motion.run, g->motion.nrun, g->motion.cap_run,
                     b->system.problem->bonds.first[PG_BOND_SETS], "the tips that run");
-    facet_run *r = g->run;
-    PG_TRY (pg_keep_fields (k, "facets", NULL, "speed", g->nrun, PG_ROWS (
+    facet_run *r = g->motion.run;
+    PG_TRY (pg_keep_fields (k, "facets", NULL, "speed", g->motion.nrun, PG_ROWS (
         PG_EACH (r, speed), PG_EACH (r, g), PG_EACH (r, mean), PG_EACH (r, steady), PG_EACH (r, way),
         PG_EACH (r, length), PG_EACH (r, least), PG_EACH (r, straight), PG_EACH (r, come), PG_EACH (r, taken),
         PG_EACH (r, shown))));
-    PG_TRY (pg_keep_fields (k, "facets", NULL, "since", 1, PG_ROWS (PG_KEPT (g->since), PG_KEPT (g->top))));
+    PG_TRY (pg_keep_fields (k, "facets", NULL, "since", 1,
+                            PG_ROWS (PG_KEPT (g->motion.since), PG_KEPT (g->motion.top))));
     PG_TRY (facet_hold_keep (b, k));
 done:
     return status;
@@ -315,12 +317,12 @@ pg_status facet_save (break_loop *b)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    facet_start *s = &g->start;
-    s->needed = g->needed, s->since = g->since, s->nrun = 0;
-    PG_GROW (s->run, s->cap_run, g->nrun);
-    if (g->nrun) memcpy (s->run, g->run, g->nrun * sizeof *g->run);
-    s->nrun = g->nrun;
-    PG_TRY (facet_hold_copy (&s->hold, &s->nhold, &s->cap_hold, g->hold, g->nhold));
+    facet_start *s = &g->motion.start;
+    s->needed = g->needed, s->since = g->motion.since, s->nrun = 0;
+    PG_GROW (s->run, s->cap_run, g->motion.nrun);
+    if (g->motion.nrun) memcpy (s->run, g->motion.run, g->motion.nrun * sizeof *g->motion.run);
+    s->nrun = g->motion.nrun;
+    PG_TRY (facet_hold_copy (&s->hold, &s->nhold, &s->cap_hold, g->motion.hold, g->motion.nhold));
 done:
     return status;
 }
@@ -329,10 +331,10 @@ done:
 void facet_return (break_loop *b)
 {
     facet_growth *g = b->growth;
-    const facet_start *s = &g->start;
-    g->needed = s->needed, g->since = s->since, g->fresh = 0;
-    if (g->nrun > s->nrun) g->nrun = s->nrun;
-    if (g->nrun) memcpy (g->run, s->run, g->nrun * sizeof *g->run);
-    facet_hold_copy (&g->hold, &g->nhold, &g->cap_hold, s->hold, s->nhold);
+    const facet_start *s = &g->motion.start;
+    g->needed = s->needed, g->motion.since = s->since, g->fresh = 0;
+    if (g->motion.nrun > s->nrun) g->motion.nrun = s->nrun;
+    if (g->motion.nrun) memcpy (g->motion.run, s->run, g->motion.nrun * sizeof *g->motion.run);
+    facet_hold_copy (&g->motion.hold, &g->motion.nhold, &g->motion.cap_hold, s->hold, s->nhold);
     facet_hold_sum (b);
 }

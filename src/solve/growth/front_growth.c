@@ -167,7 +167,7 @@ static void doubt_release (const break_loop *b, const pg_front *front, size_t nf
     facet_growth *g = b->growth;
     const front_growth *f = g->fronts;
     double top = 0, apart;
-    if (g->said & FACET_SAID_UNKNOWN || g->moving) return;
+    if (g->said & FACET_SAID_UNKNOWN || g->motion.moving) return;
     for (size_t k = 0; k < nfront; k++) if (front[k].open) top = fmax (top, mean_release (g, k, &apart));
     for (size_t k = 0; k < nfront && !(g->said & FACET_SAID_UNKNOWN); k++) {
         double J = front[k].open ? mean_release (g, k, &apart) : 0;
@@ -285,7 +285,7 @@ static pg_status advance (break_loop *b, pg_state *state, size_t k, double need)
                               &b->changes));
     for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
     g->needed += need * (state->surfaces->area - area),
-        g->event_energy += need * (state->surfaces->area - area);
+        g->event.energy += need * (state->surfaces->area - area);
 done:
     return status;
 }
@@ -351,7 +351,7 @@ pg_status fronts_grow (break_loop *b, pg_state *state, double factor, double lea
         if (facet_trial_utilisation (g, &g->trial[k], factor) >= least)
             PG_TRY (fronts_start (b, state, &g->trial[k]));
     size_t open = open_vertices (p, state);
-    g->going = open > 0, g->closed |= open == 0;
+    g->event.going = open > 0, g->event.closed |= open == 0;
 done:
     return status;
 }

@@ -418,7 +418,7 @@ pg_status fronts_start (break_loop *b, pg_state *state, const facet_candidate *c
     complete (&d);
     PG_TRY (start_disc (&t, state, 0, &b->changes));
     for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
-    g->needed += c->energy, g->event_energy += c->energy, g->began = g->going = 1;
+    g->needed += c->energy, g->event.energy += c->energy, g->event.began = g->event.going = 1;
 done:
     return status;
 }

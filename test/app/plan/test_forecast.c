@@ -36,17 +36,17 @@ static void counts_as_built (const char *text)
     pg_forecast f = forecast (text);
     built b = build (text);
     const pg_problem *p = b.problem;
-    assert_true (f.counted);
-    assert_true (f.points == (double) p->cloud.n);
-    assert_true (f.cells == (double) p->cells.n);
-    assert_true (f.evaluation == (double) p->bonds.rows[PG_POINTS].n);
-    assert_true (f.bonds[PG_NODES] == (double) p->bonds.first[1]);
-    assert_true (f.bonds[PG_POINTS] == (double) (p->bonds.first[2] - p->bonds.first[1]));
-    const pg_family *bulk = &p->bonds.rows[f.nodal ? PG_NODES : PG_POINTS].family;
+    assert_true (f.is.counted);
+    assert_true (f.count.points == (double) p->cloud.n);
+    assert_true (f.count.cells == (double) p->cells.n);
+    assert_true (f.count.evaluation == (double) p->bonds.rows[PG_POINTS].n);
+    assert_true (f.count.bonds[PG_NODES] == (double) p->bonds.first[1]);
+    assert_true (f.count.bonds[PG_POINTS] == (double) (p->bonds.first[2] - p->bonds.first[1]));
+    const pg_family *bulk = &p->bonds.rows[f.is.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
     check_ok (p->sums ? pg_assembly_graph_pairwise (&G, bulk)
                       : pg_assembly_graph (&G, p->cloud.n, 1, &bulk));
-    assert_true (f.pairs == (double) G.start[G.ncol]);
+    assert_true (f.count.pairs == (double) G.start[G.ncol]);
     pg_sparse_clear (&G);
     unbuild (&b);
 }
@@ -128,13 +128,13 @@ static void test_cut (void **state)
         pg_forecast f = forecast (text[i]);
         built b = build (text[i]);
         const pg_problem *p = b.problem;
-        assert_false (f.counted);
-        assert_true (f.points == (double) p->cloud.n);
-        check_relative (f.cells, (double) p->cells.n, 0.05);
-        check_relative (f.evaluation, (double) p->bonds.rows[PG_POINTS].n, 0.1);
-        check_relative (f.bonds[PG_POINTS], (double) (p->bonds.first[2] - p->bonds.first[1]), 0.06);
+        assert_false (f.is.counted);
+        assert_true (f.count.points == (double) p->cloud.n);
+        check_relative (f.count.cells, (double) p->cells.n, 0.05);
+        check_relative (f.count.evaluation, (double) p->bonds.rows[PG_POINTS].n, 0.1);
+        check_relative (f.count.bonds[PG_POINTS], (double) (p->bonds.first[2] - p->bonds.first[1]), 0.06);
         check_ok (pg_forecast_problem (&f, p));
-        assert_true (f.counted && f.cells == (double) p->cells.n);
+        assert_true (f.is.counted && f.count.cells == (double) p->cells.n);
         unbuild (&b);
     }
 }
@@ -145,14 +145,15 @@ static void test_a_sample_is_near_the_count (void **state)
     const char *text = CUBE "spacing: 0.033\n";
     pg_forecast f = forecast (text);
     built b = build (text);
-    assert_false (f.counted);
-    assert_true (f.points == (double) b.problem->cloud.n);
-    check_relative (f.bonds[PG_NODES], (double) b.problem->bonds.first[1], 0.01);
-    check_relative (f.bonds[PG_POINTS], (double) (b.problem->bonds.first[2] - b.problem->bonds.first[1]),
-                    0.01);
+    assert_false (f.is.counted);
+    assert_true (f.count.points == (double) b.problem->cloud.n);
+    check_relative (f.count.bonds[PG_NODES], (double) b.problem->bonds.first[1], 0.01);
+    check_relative (f.count.bonds[PG_POINTS],
+                    (double) (b.problem->bonds.first[2] - b.problem->bonds.first[1]), 0.01);
     check_ok (pg_forecast_problem (&f, b.problem));
-    assert_true (f.counted
-                 && f.bonds[PG_POINTS] == (double) (b.problem->bonds.first[2] - b.problem->bonds.first[1]));
+    assert_true (f.is.counted
+                 && f.count.bonds[PG_POINTS]
+                        == (double) (b.problem->bonds.first[2] - b.problem->bonds.first[1]));
     unbuild (&b);
 }
 
@@ -166,11 +167,11 @@ static void test_parted_bonds_are_estimated (void **state)
         pg_forecast f = forecast (text[i]);
         built b = build (text[i]);
         double n = (double) b.problem->bonds.first[1];
-        assert_false (f.counted);
-        check_relative (f.bonds[PG_NODES], n, 0.2);
-        assert_true (f.bonds[PG_NODES] > n - (double) i);
+        assert_false (f.is.counted);
+        check_relative (f.count.bonds[PG_NODES], n, 0.2);
+        assert_true (f.count.bonds[PG_NODES] > n - (double) i);
         check_ok (pg_forecast_problem (&f, b.problem));
-        assert_true (f.counted && f.bonds[PG_NODES] == n);
+        assert_true (f.is.counted && f.count.bonds[PG_NODES] == n);
         unbuild (&b);
     }
 }
@@ -179,8 +180,8 @@ static void test_a_coarser_lattice_is_near_the_count (void **state)
 {
     (void) state;
     pg_forecast f = forecast (RING "spacing: 0.0003\n");
-    check_relative (f.points, 0.96 * 3.14159265 / 4 / (0.0003 * 0.0003), 0.01);
-    check_relative (f.bonds[PG_NODES] / f.points, 9, 0.02);
+    check_relative (f.count.points, 0.96 * 3.14159265 / 4 / (0.0003 * 0.0003), 0.01);
+    check_relative (f.count.bonds[PG_NODES] / f.count.points, 9, 0.02);
     check_relative (f.horizon, 0.0006, 1e-3);
 }
 
@@ -189,7 +190,7 @@ static void test_wide_horizons_need_no_stencil (void **state)
     (void) state;
     size_t before = pg_memory_peak ();
     pg_forecast f = forecast (CUBE "spacing: 0.05\nmethod: {horizon: 50 spacing}\n");
-    assert_true (f.points == 9261 && f.bonds[PG_NODES] == f.points * f.points);
+    assert_true (f.count.points == 9261 && f.count.bonds[PG_NODES] == f.count.points * f.count.points);
     check_below ((double) (pg_memory_peak () - before), 1e7);
 }
 
@@ -199,11 +200,11 @@ static void factor_is_near (const char *text, double tolerance)
     pg_forecast f = forecast (text);
     pg_linear_info info;
     built b = build (text);
-    const pg_family *bulk = &b.problem->bonds.rows[f.nodal ? PG_NODES : PG_POINTS].family;
+    const pg_family *bulk = &b.problem->bonds.rows[f.is.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
     check_ok (pg_assembly_graph (&G, b.problem->cloud.n, 1, &bulk));
     check_ok (pg_linear_forecast (&G, f.dim, 0, &info));
-    assert_false (f.analysed);
+    assert_false (f.is.analysed);
     check_relative (f.factor_entries, info.factor_entries, tolerance);
     check_relative (f.factor_flops, info.flops, 2 * tolerance);
     pg_sparse_clear (&G);
@@ -353,8 +354,8 @@ static void test_astronomic_sizes (void **state)
 {
     (void) state;
     pg_forecast f = forecast (CUBE "spacing: 0.00011\n");
-    check_relative (f.points, 1 / (0.00011 * 0.00011 * 0.00011), 0.05);
-    assert_true (f.bonds[PG_POINTS] > 1e13 && isfinite (f.peak) && f.peak > 1e15);
+    check_relative (f.count.points, 1 / (0.00011 * 0.00011 * 0.00011), 0.05);
+    assert_true (f.count.bonds[PG_POINTS] > 1e13 && isfinite (f.peak) && f.peak > 1e15);
     check_fails (pg_forecast_afford (&f, 1e13), PG_E_LIMIT);
     pg_scene *scene = NULL;
     check_ok (pg_scene_parse (&scene, CUBE "spacing: 1e-9\n", "test.yaml"));

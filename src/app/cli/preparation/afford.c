@@ -39,7 +39,7 @@ pg_status afford_scene (const command *c, pg_forecast *f)
     PG_TRY (command_scene (c, &scene));
     status = pg_forecast_scene (f, scene, pg_force_methods ());
     if (pg_scene_partial (scene)) {  /* its geometry is built to look for more faults, if it is small */
-        if (f->points > 3e5) status = pg_scene_conclude (scene);
+        if (f->count.points > 3e5) status = pg_scene_conclude (scene);
         else status = PG_OK;
         memset (f, 0, sizeof *f);
         goto done;
@@ -66,7 +66,7 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     pg_sparse G = { 0 };
     pg_linear_info info;
     const pg_family *seen[3] = { p->form.consistency ? &p->form.consistency->cell_family
-                                                : &p->bonds.rows[f->nodal ? PG_NODES : PG_POINTS].family,
+                                                : &p->bonds.rows[f->is.nodal ? PG_NODES : PG_POINTS].family,
                                  &p->bonds.rows[PG_FACETS].family };
     size_t pinned = 0, n = 1;
     for (size_t l = 0; l < p->boundary.nload; l++)
@@ -79,7 +79,7 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     int unknowns = pg_problem_unknowns (p), many = p->criterion && p->criterion->type;
     PG_TRY (pg_linear_forecast (&G, unknowns, many, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
-    if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more */
+    if (f->count.slaves > 0) f->is.analysed = 0; /* elimination joins the masters: a little more */
 done:
     pg_sparse_clear (&G);
     return status;
@@ -95,7 +95,7 @@ pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
     double available = afford_available (c);
     PG_TRY (pg_forecast_problem (f, p));
     int close = f->peak > 0.5 * available;
-    if ((thorough || close) && f->points <= most && f->linear && f->linear->symmetric)
+    if ((thorough || close) && f->count.points <= most && f->linear && f->linear->symmetric)
         PG_TRY (analyse (f, p));
     PG_TRY (pg_forecast_afford (f, available));
 done:

@@ -172,8 +172,8 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
               && p->problem->method->shape_functions,
           "shape functions of most places",
           "places of a lattice that see their nodes alike have the same ones: evaluated once" },
-        { p->problem->form.approx.congruent && p->forecast->shared && !p->forecast->interpolates
-              && p->forecast->points + p->forecast->evaluation > 1000,
+        { p->problem->form.approx.congruent && p->forecast->is.shared && !p->forecast->is.interpolates
+              && p->forecast->count.points + p->forecast->count.evaluation > 1000,
           "memory for the shape functions of every point",
           "points of a lattice that see their nodes alike share them" },
         { fails && !steps && !o->plain && p->problem->method->shape_functions
@@ -198,10 +198,10 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
           "conjugate gradients need neither" },
         { matrix && !quasi_static && !fails, "all factorizations but one",
           "the time step is constant and nothing breaks" },
-        { matrix && quasi_static && !fails && !o->plain && !p->forecast->pressed
+        { matrix && quasi_static && !fails && !o->plain && !p->forecast->is.pressed
               && p->forecast->linear->factor_taking,
           "memory for K beside its factor", "nothing breaks: one factor serves the whole run" },
-        { matrix && fails && !p->forecast->nodal, "factorization where only node-node bonds broke",
+        { matrix && fails && !p->forecast->is.nodal, "factorization where only node-node bonds broke",
           "they do not enter K under Gauss integration" },
     };
     size_t n = 0;
@@ -331,15 +331,15 @@ static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
             f->linear      ? f->linear->name
-            : f->dynamic   ? "conjugate gradients, no matrix\n"
-            : f->elements  ? "conjugate gradients, no matrix, preconditioned by finite elements\n"
+            : f->is.dynamic   ? "conjugate gradients, no matrix\n"
+            : f->is.elements  ? "conjugate gradients, no matrix, preconditioned by finite elements\n"
             : f->method->shape_functions ? "conjugate gradients, no matrix\n"
                            : "conjugate gradients, no matrix, preconditioned on several grids\n");
     if (!f->linear) return;
     printf (", %.4g entries in the upper triangle of K\n", f->matrix_entries);
     printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor",
             f->factor_entries, f->factor_flops, f->factor_flops / 20e9,
-            f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
+            f->is.analysed ? "analysed: " : "estimate", f->is.analysed ? f->ordering : "");
 }
 
 /* Bytes with three digits in MB, GB or TB (powers of 1000); the limits avoid "1e+03 MB". */

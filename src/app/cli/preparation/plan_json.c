@@ -105,7 +105,7 @@ static void memory (pg_json *j, const plan *p)
     int factors = f->linear != NULL;
     pg_json_text (j, "linear_solver", pg_forecast_linear (f));
     if (factors) {
-        pg_json_text (j, "ordering", f->analysed ? f->ordering : "estimate");
+        pg_json_text (j, "ordering", f->is.analysed ? f->ordering : "estimate");
         pg_json_number (j, "matrix_entries", f->matrix_entries);
         pg_json_number (j, "factor_entries", f->factor_entries);
         pg_json_number (j, "factor_flops", f->factor_flops);

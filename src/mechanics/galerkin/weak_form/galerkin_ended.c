@@ -142,11 +142,11 @@ static pg_status evaluate_extra (galerkin *g, const pg_cracks *cracks)
     a.order = 1, a.congruent = a.extrapolates = a.projected = 0;
     e->extra.dim = 2, e->extra.n = e->extra.family.n = e->nextra;
     if (e->nextra == 0) return PG_OK;
-    PG_GROW (e->extra.N, e->cap_N, bonds);
-    PG_GROW (e->extra.grade, e->cap_grade, e->nextra);
-    PG_GROW (e->extra.own, e->cap_own, e->nextra);
-    PG_GROW (e->sight, e->cap_sight, bonds);
-    PG_GROW (e->extra.wide, e->cap_wide, e->nextra);
+    PG_GROW (e->extra.N, e->cap.N, bonds);
+    PG_GROW (e->extra.grade, e->cap.grade, e->nextra);
+    PG_GROW (e->extra.own, e->cap.own, e->nextra);
+    PG_GROW (e->sight, e->cap.sight, bonds);
+    PG_GROW (e->extra.wide, e->cap.wide, e->nextra);
     for (size_t q = 0; q < e->nextra; q++) e->extra.own[q] = -1, e->extra.wide[q] = 1;
     looking l = { g, cracks, &e->extra, e->eye, NULL, e->sight };
     pg_parallel (g->threads, e->nextra, look, &l);

@@ -23,26 +23,31 @@ typedef struct {
     int    guest;                  /* 1: parts of other cells lean on its points */
 } ended_cell;
 
+/* Capacities of the arrays that grow, by their names. */
+typedef struct {
+    size_t near, seen, x, eye, flux, part, crack, start, node, sight, N, grade, own, wide, side, first,
+        next_point, next_side;
+} ended_capacities;
 struct galerkin_ended {
-    size_t n, cap;  ended_cell *near;                  /* ascending by cell */
+    ended_capacities cap;
+    size_t n;  ended_cell *near;                  /* ascending by cell */
     int   *at;                                         /* place + 1 in the list of every cell */
-    double *seen;  size_t nseen, cap_seen;             /* cracks that the list belongs to */
+    double *seen;  size_t nseen;             /* cracks that the list belongs to */
     pg_rows face;                                      /* faces of all cells: values of live bonds */
     unsigned char *alive, *weak;                       /* weak: faces from which too little is seen */
     /* Points on pieces of faces and on cracks: of each, its eye, flux out of the part it belongs to, m^2,
      * that part (place in the list, part); 1: on a crack. */
     pg_rows extra;
-    size_t  nextra, cap_x, cap_eye, cap_flux, cap_part, cap_crack, cap_start, cap_node;
+    size_t  nextra;
     double *eye, *flux;
     int   (*part)[2];
     unsigned char *crack;
-    unsigned char *sight;  size_t cap_sight;           /* live bonds of these points */
-    size_t  cap_N, cap_grade, cap_own, cap_wide;
+    unsigned char *sight;           /* live bonds of these points */
     /* Whole sides of parts: the face, and the part (place in the list, part). */
-    struct { size_t face; int part[2]; } *side;  size_t nside, cap_side;
+    struct { size_t face; int part[2]; } *side;  size_t nside;
     /* The points and sides of part p of the cell at place k: a chain from first[PG_PARTS k + p], numbers + 1;
      * those of sides are negative. */
-    long   *first, *next_point, *next_side;  size_t cap_first, cap_next_point, cap_next_side;
+    long   *first, *next_point, *next_side;
     size_t blocked; /* cells that a crack runs through, left as they were */
 };
 

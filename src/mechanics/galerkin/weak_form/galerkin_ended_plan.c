@@ -67,7 +67,7 @@ static pg_status find_near (galerkin *g, const pg_cracks *cracks)
     double reach = reach_of (g), low[3], high[3];
     for (size_t k = 0; k < e->n; k++) e->at[e->near[k].cell] = 0;
     e->n = 0;
-    PG_GROW (e->seen, e->cap_seen, 6 * cracks->n);
+    PG_GROW (e->seen, e->cap.seen, 6 * cracks->n);
     for (size_t k = 0; k < cracks->n; k++) {
         const pg_crack *c = &cracks->crack[k];
         memcpy (e->seen + 6*k, c->vertex, 4 * sizeof (double));
@@ -86,7 +86,7 @@ static pg_status find_near (galerkin *g, const pg_cracks *cracks)
     }
     for (size_t c = 0; c < cells->n; c++) {
         if (!listed[c]) continue;
-        PG_GROW (e->near, e->cap, e->n + 1);
+        PG_GROW (e->near, e->cap.near, e->n + 1);
         memset (&e->near[e->n], 0, sizeof *e->near);
         e->near[e->n].cell = c, e->at[c] = (int) ++e->n;
     }
@@ -367,7 +367,7 @@ static pg_status add_family (struct galerkin_ended *e, const pg_family *f, leani
             at[lists] = f->start[cell], end[lists] = f->start[cell + 1];
         }
     }
-    PG_GROW (e->extra.family.start, e->cap_start, e->nextra + 2);
+    PG_GROW (e->extra.family.start, e->cap.start, e->nextra + 2);
     if (e->nextra == 0) e->extra.family.start[0] = 0;
     for (; at[0] < end[0]; at[0]++) {
         int node = f->node[at[0]], all = 1;
@@ -376,7 +376,7 @@ static pg_status add_family (struct galerkin_ended *e, const pg_family *f, leani
             all &= at[l] < end[l] && f->node[at[l]] == node;
         }
         if (!all) continue;
-        PG_GROW (e->extra.family.node, e->cap_node, n + 1);
+        PG_GROW (e->extra.family.node, e->cap.node, n + 1);
         e->extra.family.node[n++] = node;
     }
     e->extra.family.start[e->nextra + 1] = n;
@@ -394,11 +394,11 @@ static pg_status add_point (galerkin *g, leaning on, const double *x, const doub
     double away = crack ? ENDED_BESIDE * spacing (g, x) : 0;
     for (int i = 0; i < on.own->n; i++) {
         size_t q = e->nextra;
-        PG_GROW (e->extra.x, e->cap_x, 2 * (q + 1));
-        PG_GROW (e->eye, e->cap_eye, 2 * (q + 1));
-        PG_GROW (e->flux, e->cap_flux, 2 * (q + 1));
-        PG_GROW (e->part, e->cap_part, q + 1);
-        PG_GROW (e->crack, e->cap_crack, q + 1);
+        PG_GROW (e->extra.x, e->cap.x, 2 * (q + 1));
+        PG_GROW (e->eye, e->cap.eye, 2 * (q + 1));
+        PG_GROW (e->flux, e->cap.flux, 2 * (q + 1));
+        PG_GROW (e->part, e->cap.part, q + 1);
+        PG_GROW (e->crack, e->cap.crack, q + 1);
         PG_TRY (add_family (e, &g->problem->form.consistency->cell_family, on));
         for (size_t k = 0; k < 2; k++) {
             e->extra.x[2*q + k] = x[k], e->eye[2*q + k] = x[k] - away * normal[k];
@@ -436,7 +436,7 @@ done:
 static pg_status add_side (struct galerkin_ended *e, size_t at, int part, size_t face)
 {
     pg_status status = PG_OK;
-    PG_GROW (e->side, e->cap_side, e->nside + 1);
+    PG_GROW (e->side, e->cap.side, e->nside + 1);
     e->side[e->nside].face = face;
     e->side[e->nside].part[0] = (int) at, e->side[e->nside++].part[1] = part;
 done:
@@ -490,9 +490,9 @@ done:
 static pg_status chain (struct galerkin_ended *e)
 {
     pg_status status = PG_OK;
-    PG_GROW (e->first, e->cap_first, PG_PARTS * e->n);
-    PG_GROW (e->next_point, e->cap_next_point, e->nextra);
-    PG_GROW (e->next_side, e->cap_next_side, e->nside);
+    PG_GROW (e->first, e->cap.first, PG_PARTS * e->n);
+    PG_GROW (e->next_point, e->cap.next_point, e->nextra);
+    PG_GROW (e->next_side, e->cap.next_side, e->nside);
     for (size_t k = 0; k < PG_PARTS * e->n; k++) e->first[k] = 0;
     for (size_t q = e->nextra; q-- > 0;) {
         long *first = &e->first[PG_PARTS * e->part[q][0] + e->part[q][1]];

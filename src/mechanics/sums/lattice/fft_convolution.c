@@ -22,8 +22,8 @@ static void fft_free (void *self)
     pg_fft_clear (&t->f);
     pg_stencil_loop_free (t->s);
     void *blocks[] = { t->K,       t->chi,   t->D,     t->cut,    t->seen,  t->seen_block,
-                       t->touched, t->list,  t->edge,  t->ragged, t->risky, t->W,
-                       t->ones,    t->f_own, t->third, t->open,   t->rim };
+                       t->touched, t->list,  t->edge,  t->ragged, t->risky, t->sum.W,
+                       t->sum.ones,    t->sum.f_own, t->third, t->open,   t->rim };
     for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
     pg_free (t);
 }
@@ -210,7 +210,7 @@ static void still_row (const transformer *t, size_t row, int d, const double *we
 {
     double from, by;
     pg_fft_motion_of (t, row, d, &from, &by);
-    t->f.kernels->still (t->nx, t->s->job.u[d] + fft_row_base (t, row), t->shift[d], from, by, weight, x);
+    t->f.kernels->still (t->nx, t->s->job.u[d] + fft_row_base (t, row), t->off.shift[d], from, by, weight, x);
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
@@ -261,7 +261,7 @@ static void take_force (void *context, size_t row, double *const *q, double *spa
                   .skip = t->cut };
     (void) spare;
     for (int d = 0; d < t->dim; d++) {
-        r.u[d] = t->s->job.u[d] + base, r.q[d] = q[d], r.shift[d] = t->shift[d];
+        r.u[d] = t->s->job.u[d] + base, r.q[d] = q[d], r.shift[d] = t->off.shift[d];
         pg_fft_motion_of (t, row, d, &r.from[d], &r.by[d]);
     }
     for (int p = 0; p < t->pairs; p++) r.D[p] = t->D + (size_t) p * all + row * t->width;
@@ -276,7 +276,7 @@ typedef struct { transformer *t; double e[6]; } strain;
  * ones. */
 static strain strain_of (transformer *t)
 {
-    const double *step = t->s->setting.sums->sites.step, *G = t->slope;
+    const double *step = t->s->setting.sums->sites.step, *G = t->off.slope;
     strain s = { .t = t };
     for (int b = 0, at = 0; b < t->dim; b++)
         for (int c = 0; c <= b; c++)
@@ -325,7 +325,7 @@ static pg_status fft_force (void *self, const double *u, double *f, pg_changes *
     stencil *s = t->s;
     size_t before = broken ? broken->n : 0, n = 0, blocks = s->nblock, cut = 0;
     int check = broken && s->setting.limit && s->setting.sums->cloud->n;
-    t->u = u;
+    t->sum.u = u;
     pg_stencil_loop_spread (s, u);
     if (check) n = pg_fft_bound_suspects (t, s->setting.limit[0], t->list);
     else for (size_t k = 0; k < blocks; k++) if (t->cut[k]) t->list[n++] = (int) k;
@@ -349,8 +349,8 @@ static void take_work (void *context, size_t row, double *const *q, double *spar
 {
     const transformer *t = context;
     size_t all = t->rows * t->width;
-    double *W = t->W + row * t->width, *u[3];
-    for (int a = 0; a < t->dim; a++) still_row (t, row, a, t->ones, u[a] = spare + (size_t) a * t->width);
+    double *W = t->sum.W + row * t->width, *u[3];
+    for (int a = 0; a < t->dim; a++) still_row (t, row, a, t->sum.ones, u[a] = spare + (size_t) a * t->width);
     memset (W, 0, t->nx * sizeof *W);
     for (int a = 0; a < t->dim; a++)
         for (int b = 0; b < t->dim; b++) {
@@ -378,9 +378,9 @@ static void take_squares (void *context, size_t row, double *const *S, double *s
 {
     const transformer *t = context;
     const double *chi = t->chi + fft_row_base (t, row);
-    double *W = t->W + row * t->width, *x[1] = { spare };
+    double *W = t->sum.W + row * t->width, *x[1] = { spare };
     for (size_t k = 0; k < t->nx; k++) x[0][k] = chi[k] * (W[k] + S[0][k]);
-    hand_out (t, row, 1, x, t->f_out);
+    hand_out (t, row, 1, x, t->sum.f_out);
 }
 
 /* Energy density of the points, J/m^3. Each bond stores (u_j - u_i) K (u_j - u_i), which multiplied out
@@ -393,8 +393,8 @@ static pg_status fft_energies (void *self, const double *u, double *W)
     stencil *s = t->s;
     const pg_cloud *cloud = s->setting.sums->cloud;
     size_t n = 0;
-    t->u = u, t->f_out = W;
-    if (!t->W) PG_ALLOC (t->W, t->rows * t->width);
+    t->sum.u = u, t->sum.f_out = W;
+    if (!t->sum.W) PG_ALLOC (t->sum.W, t->rows * t->width);
     PG_TRY (pg_fft_fields (&t->f, t->pairs));
     pg_stencil_loop_spread (s, u);
     pg_fft_fit_motion (t, u, 0);
@@ -417,15 +417,15 @@ static double fft_energy (void *self, const double *u)
     const pg_cloud *cloud = t->s->setting.sums->cloud;
     size_t dim = (size_t) t->dim;
     double sum = 0;
-    fft_force (t, u, t->f_own, NULL);
+    fft_force (t, u, t->sum.f_own, NULL);
     pg_fft_fit_motion (t, u, 0);
     for (size_t i = 0; i < cloud->n; i++) {
         size_t site = (size_t) t->s->setting.sums->sites.site[i];
         double part = 0, from, by;
         for (size_t d = 0; d < dim; d++) {
             pg_fft_motion_of (t, site / t->nx, (int) d, &from, &by);
-            part += t->f_own[i * dim + d]
-                    * (u[i * dim + d] - t->shift[d] - (from + by * (double) (site % t->nx)));
+            part += t->sum.f_own[i * dim + d]
+                    * (u[i * dim + d] - t->off.shift[d] - (from + by * (double) (site % t->nx)));
         }
         sum += part;
     }
@@ -494,9 +494,9 @@ static pg_status create_convolution (void **self, const pg_bond_loop_setting *se
     t->places = pg_stencil_loop_places (s);
     PG_ALLOC (t->chi, t->places);
     PG_ALLOC (t->D, (size_t) t->pairs * t->rows * t->width);
-    PG_ALLOC (t->ones, t->width);
-    for (size_t k = 0; k < t->width; k++) t->ones[k] = 1;
-    PG_ALLOC (t->f_own, n * (size_t) t->dim);
+    PG_ALLOC (t->sum.ones, t->width);
+    for (size_t k = 0; k < t->width; k++) t->sum.ones[k] = 1;
+    PG_ALLOC (t->sum.f_own, n * (size_t) t->dim);
     PG_ALLOC (t->cut, s->nblock);
     PG_ALLOC (t->third, n * (size_t) t->thirds);
     PG_ALLOC (t->open, n);

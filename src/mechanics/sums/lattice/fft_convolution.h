@@ -18,6 +18,13 @@
 
 enum { FFT_TERMS = 16 };                               /* pairs and thirds in space */
 typedef struct { int point, block; } fft_rim;
+/* The motion that is taken off before a transform, m: shift + (base + slope . place of a site). */
+typedef struct { double shift[3], base[3], slope[9]; } taken_motion;
+/* What a sum in progress reads and gives: displacements, forces or energies. */
+typedef struct {
+    const double *u;
+    double *f_out, *f_own, *W, *ones;
+} running_sum;
 typedef struct {
     stencil *s;  /* bits of bonds, displacements in padded places, loops over bonds */
     fft     f;
@@ -31,15 +38,14 @@ typedef struct {
     unsigned char *seen, *seen_block;                  /* while bonds die (points, blocks) */
     int    *touched, *list;                            /* points, blocks */
     size_t  gone;                                      /* points all whose bonds are dead */
-    double  shift[3], base[3], slope[9];  /* motion taken off, m: shift + (base + slope . place of a site) */
+    taken_motion off;
     double *third;  /* sum K_ab xi_c chi, N: where open (points x thirds) */
     unsigned char *open;                               /* point: its family is not a whole one of weight 1 */
     fft_rim *rim;  size_t nrim;                        /* points marked by open, with their blocks */
     double *edge;                                      /* fft_bound.c */
     unsigned char *ragged, *risky;
     size_t  room_edges;
-    const double *u;                                   /* during a sum: displacements, forces or energies */
-    double *f_out, *f_own, *W, *ones;
+    running_sum sum;
     pg_bond_loop_counts count;
 } transformer;
 

@@ -86,10 +86,10 @@ void pg_fft_fit_motion (transformer *t, const double *u, int strained)
     int at[3], site = sites->site[0];
     (strained ? fit_strain : fit_turn) (&m, t->dim, G);
     for (int k = 0; k < 3; k++) at[k] = site % sites->count[k], site /= sites->count[k];
-    memset (t->base, 0, sizeof t->base), memset (t->slope, 0, sizeof t->slope);
+    memset (t->off.base, 0, sizeof t->off.base), memset (t->off.slope, 0, sizeof t->off.slope);
     for (int d = 0; d < t->dim; d++) {
         double base = strained ? m.shift[d] : 0, most = 0, slope[3] = { 0 };
-        t->shift[d] = m.shift[d] - base;
+        t->off.shift[d] = m.shift[d] - base;
         for (int k = 0; k < t->dim; k++) {
             base += G[3*d + k] * (sums->cloud->x[k] - at[k] * sites->step[k] - m.centre[k]);
             slope[k] = G[3*d + k] * sites->step[k], most += fabs (slope[k]) * sites->count[k];
@@ -97,8 +97,8 @@ void pg_fft_fit_motion (transformer *t, const double *u, int strained)
         most += fabs (base);
         if (!(most > 0) || !isfinite (most)) continue;
         double unit = ldexp (1, ilogb (most) - 51);
-        t->base[d] = unit * nearbyint (base / unit);
-        for (int k = 0; k < t->dim; k++) t->slope[3*d + k] = unit * nearbyint (slope[k] / unit);
+        t->off.base[d] = unit * nearbyint (base / unit);
+        for (int k = 0; k < t->dim; k++) t->off.slope[3*d + k] = unit * nearbyint (slope[k] / unit);
     }
 }
 
@@ -106,6 +106,7 @@ void pg_fft_fit_motion (transformer *t, const double *u, int strained)
 void pg_fft_motion_of (const transformer *t, size_t row, int d, double *from, double *by)
 {
     size_t ny = (size_t) t->s->setting.sums->sites.count[1];
-    *from = t->base[d] + t->slope[3*d + 1] * (double) (row % ny) + t->slope[3*d + 2] * (double) (row / ny);
-    *by = t->slope[3*d];
+    *from = t->off.base[d] + t->off.slope[3 * d + 1] * (double) (row % ny)
+            + t->off.slope[3 * d + 2] * (double) (row / ny);
+    *by = t->off.slope[3*d];
 }
