@@ -107,7 +107,7 @@ struct pg_approx_type {
     int exact;
     /* How far from where it is drawn the tip of a crack may lie, in spacings: the worst of
      * eight places among the points, for Gauss points with the linear and the quadratic basis,
-     * and for nodal integration (src/mechanics/model/tips.c). */
+     * and for nodal integration (src/mechanics/model/pre_crack_tips.c). */
     struct { double linear, quadratic, nodal; } tip;
     /* 1: N of a node is 1 at that node and 0 at the others, so that coefficients are
      * displacements. */

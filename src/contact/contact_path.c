@@ -32,7 +32,9 @@ typedef enum { APART, PRESSED, TOUCHING } normal_freedom;
 typedef struct {
     const pg_contact_path *p;
     pg_contact_track *m;
-    double sense, tiny, slow;                          /* 1, -1: of the path; no matter: m; m per s */
+    /* direction along the path, 1 or -1; a length that counts as 0, m; a rate that counts as 0, m per unit
+     * of s */
+    double sense, tiny, slow;
     double *A, *b, *df, *dg;                           /* equations; rates along the sense (2 n) */
     unsigned char *normal, *shear;                     /* freedoms (n) */
 } track_work;

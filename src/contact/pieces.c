@@ -2,7 +2,8 @@
  * Cracks in pieces of about two spacings, and the rows of their mean gaps and slips.
  *
  * Straight segments of cracks that meet end to end, and turn by less than half a radian there, form a path;
- * so much of it as cuts bonds (behind tips it does not, mechanics/model/tips.c) is divided into pieces
+ * so much of it as cuts bonds (behind tips it does not, mechanics/model/pre_crack_tips.c) is divided
+ * into pieces
  * of equal length,
  * measured in local spacings. A piece is sampled at points, eight per spacing, in the middle of equal parts;
  * points outside the body do not count. With weights w_q = length of the part times thickness,

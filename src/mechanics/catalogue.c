@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The list of forces. */
+ * The list of forces (list.h), and problems that may have any of them: pg_problem_prepare hands the list to
+ * the model, which knows no force by itself. */
 #include "perigal/force.h"
 #include <string.h>
 

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal run: scene -> problem -> solver -> steps -> result folder.
+ * perigal run: scene -> problem -> solver -> steps -> result folder. What happens where:
+ *   scene/keys/load.c, scene/document.c             the file: a tree of checked values
+ *   app/cli/preparation/prepare.c, command.c        problem and solver of the scene
+ *   mechanics/catalogue.c, mechanics/model/problem.c  body, points, laws, loads; then bonds (bonds.c)
+ *   solve/solver.c                                  the solver, its steps; patch_test.c before the first
+ *   solve/static.c, solve/events/event_stepping.c   one step at rest: fixed, or to the next event
+ *   solve/breaking/break_loop.c                     break, renew, solve again until nothing breaks
+ *   solve/system/refinement.c, choice.c             one linear solve
+ *   mechanics/galerkin/galerkin.c                   forces, matrix, what bonds show (or mechanics/bonds)
+ *   app/results/result.c, history.c, json.c         the files of the result
  *
  * A run can end early in three ways: interrupted by a signal, stopped by a failure (no
  * equilibrium, no memory, a full disk), or killed. In the first two a checkpoint is written,
@@ -8,7 +17,7 @@
  * checkpoint and all complete steps are there.
  *
  * Where ranks share the run (perigal-mpi) each passes through here; rank 0 speaks. What one of them meets
- * between steps is early to all, so that they go on or end together. */
+ * between steps is told to all, so that they go on or end together. */
 #include "app/cli/preparation/cli.h"
 #include <stdlib.h>
 #include <string.h>
@@ -234,7 +243,7 @@ done:
     return status;
 }
 
-/* What a person is early on stderr at the end, whatever ended the run: the reasons, each once,
+/* What a person is told on stderr at the end, whatever ended the run: the reasons, each once,
  * and how to go on where that is possible. */
 static void tell_outcome (const command *c, pg_status outcome, const char *failure, pg_status written,
                           const char *fault, int kept)
@@ -364,7 +373,7 @@ int pg_cli_run (int argc, char **argv)
     return pg_cli_run_ranks (argc, argv, &together);
 }
 
-/* Ranks begin on a processor each, unless they are early otherwise. */
+/* Ranks begin on a processor each, unless they are told otherwise. */
 int pg_cli_run_ranks (int argc, char **argv, int *together)
 {
     pg_status status = PG_OK;

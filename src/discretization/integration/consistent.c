@@ -475,8 +475,8 @@ static void obey (const job *j, size_t cell, size_t m, const int *node, double *
     remove_sums (j, cell, m);
 }
 
-/* One cell: copies the direct values into the wider lists, then corrects them if the cell is whole, and no
- * guest of a cell that is. */
+/* One cell: copies the uncorrected N and dN into lists with room for more nodes; then corrects them if the
+ * cell is whole and not a small one that another cell integrates (hosts.c). */
 static void treat (const job *j, size_t cell, double *workspace)
 {
     const pg_consistency *c = j->c;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The Galerkin force: R = P - sum_p w_p B_p' sigma_p on live bonds, K = sum_p w_p B_p' D B_p (Cui 2022
  * section 3; theory F). After a break only the rows of touched points and of the nodes they see are
- * redone. */
+ * redone. Its entries stand here but for matrix and K x (weak_form/galerkin_operator.c), judge
+ * (weak_form/galerkin_bonds.c), field (galerkin_field.c), sample (galerkin_sample.c). */
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include "mechanics/boundary/one_sided.h"
 #include <math.h>

@@ -192,7 +192,7 @@ static const struct { const char *text; double factor, m, kg, s, angle;
     { "deg", 0.017453292519943295, 0, 0, 0, 1 },
 };
 
-/* Is it one of these? */
+/* Is the text one of the common units of the table? Then *m gets its factor and powers. */
 static int is_common (pg_measure *m, const char *text, size_t n)
 {
     for (size_t k = 0; k < sizeof common / sizeof *common; k++) {

@@ -178,8 +178,9 @@ static void displacement_of (const pg_system *s, double share, const double *for
             d[k] += force[i] * c->compliance.Z[i * s->ndof + k];
 }
 
-/* The line of the stretch at s = 0 or 1: its displacement, mended; what that changes is taken to the open
- * cracks, as are the gaps. *change: of gaps, over the largest of them. */
+/* The displacement at the start or end (s = 0 or 1) of a stretch without changes of status, refined until
+ * its residual is small; the correction is added to the displacement with open cracks and to the gaps,
+ * too. *change: of the gaps, over the largest of them. */
 static pg_status mend (pg_system *s, int end, double *d, double *change, double *residual)
 {
     pg_status status = PG_OK;

@@ -397,7 +397,8 @@ void ahead_refused (event_ahead *q)
     q->cold = -1;
 }
 
-/* What was spared: a look at all bonds for each event found together with others, at a stored rate. */
+/* Reports what looking ahead has saved: one look at all bonds for each event that was found together with
+ * others, at a stored rate of seconds a bond. */
 void ahead_tell (pg_solver *s)
 {
     const event_ahead *q = events_of (s)->ahead;

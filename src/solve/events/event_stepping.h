@@ -68,11 +68,11 @@ pg_status affine_aim   (pg_solver *s, pg_state *state, double level, int arrived
 pg_status affine_meets (pg_solver *s, const pg_state *state, const double *reaction, int *stops);
 /* *end: load factor at which the next crack increment (facet) grows, at most that of full load. */
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
+/* A new crack is there with contact: the state is the equilibrium at the load of the event. */
+pg_status affine_stay (pg_solver *s, pg_state *state);
 /* With contact: accounts the way of a facet from before it to where the next one grows, at which
  * affine_next_growth has left the forces of contact, and back through all changes of status to the state
  * after it. */
-/* A new crack is there with contact: the state is the equilibrium at the load of the event. */
-pg_status affine_stay (pg_solver *s, pg_state *state);
 pg_status affine_account (pg_solver *s, pg_state *state, double end);
 
 /* break: facet: the measurement of tips is that of the equilibria at hand; proportional loads: the load

@@ -2,7 +2,8 @@
  * Where the vertices of crack fronts go, and how far.
  *
  * A vertex in modes I, II and III turns about its front by the angle of the largest hoop stress (Erdogan and
- * Sih 1963; crack/fracture/kink.c). With K_A = K_I cos^2 (theta/2) - 3/2 K_II sin theta, the largest
+ * Sih 1963; crack/fracture/kink_direction.c). With K_A = K_I cos^2 (theta/2) - 3/2 K_II sin theta, the
+ * largest
  * principal
  * stress on the plane across the front there has the intensity (Schoellmann, Richard, Kullmer and Fulland
  * 2002, Int. J. Fract. 117, 129-141)

@@ -64,7 +64,8 @@ typedef struct {
     double breaking, bonds;  /* s that breaking has cost in factors; bonds that broke meanwhile */
     double fresh;                                      /* bonds that broke since the last solve */
     double spent;                                      /* what the factor had cost by then */
-    long   solves;                                     /* by elements in place of a factor */
+    /* systems solved by conjugate gradients with finite elements as preconditioner, in place of a factor */
+    long   solves;
 } pg_ways;
 
 /* The matrix k K + m M as it was last factored, and its factor. */
@@ -311,7 +312,8 @@ void      system_go_on (pg_system *s, const double *d, const double *x, double *
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
 /* After the first refresh; consistent: by the force, not lumped. */
 pg_status system_mass (pg_system *s, int consistent);
-void system_add_held (const pg_system *s, double *residual);           /* += held */
+/* residual += forces that facets still hold in motion, N (facet_hold.c) */
+void system_add_held (const pg_system *s, double *residual);
 void system_add_mass (const pg_system *s, double factor, const double *x, double *y);
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
 void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The linear system of a force, (k K + m M) delta = R: its life, and what changes with the bonds that live.
- * With elimination d = T q + g the matrix is T' (k K + m M) T (system_factor.c) and the residual T' R. How it
- * is solved: choice.c; refined: refinement.c. */
+ * With elimination d = T q + g the matrix is T' (k K + m M) T (system_factor.c) and the residual T' R.
+ * Solving begins in refinement.c (system_solve); what each solve is done by is the business of choice.c: a
+ * factor (system_factor.c, kept_factor.c), its inverse after changes (inverse.c), or iterations
+ * (iterate.c). */
 #include "solve/run/body_parts.h"
 #include "inverse.h"
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A quasi-static solver: equilibria at load factors whose distance to the full load shrinks by a ratio of the
  * solver's own at every step, 1 - ratio^k, each with the break loop. */
-#include "solve.h"
+#include "solve/run/solve.h"
 #include <math.h>
 #include <string.h>
 
@@ -27,10 +27,10 @@ static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
     double t = last ? 1 : 1 - pow (PG_OWN (options, &s->options)->ratio, (double) (state->step + 1));
     PG_TRY (equilibrate (b, state, t, state->d, NULL, out));
     state->factor = state->time = out->factor = out->time = t;
-    s->report.energy_strain = b->work_balance.strain;
+    s->report.energy.strain = b->work_balance.strain;
     out->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->boundary.nload * sizeof *s->reaction);
     out->level = 1, s->finished = last;
 done:
     return status;

@@ -216,7 +216,7 @@ done:
 }
 
 /* spectrum.png: the branches, and the waves of the continuum on the first edge of the zone, up
- * to the height of the branches: that is where long waves are. */
+ * lines of the continuum are cut off where the branches of the lattice end: that is where long waves are. */
 static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, const char *folder)
 {
     pg_status status = PG_OK;

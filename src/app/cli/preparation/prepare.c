@@ -4,8 +4,8 @@
 #include "cli.h"
 #include <stdlib.h>
 
-/* Where the user, or the program that started this one, has settled the threads of libraries, the
- * environment stays as it is. */
+/* 1: the environment may be changed here; 0: the user, or the program that started this one, has settled the
+ * threads of libraries. */
 static int environment_ours;
 
 void settle_blas_too (void) { environment_ours = 1; }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The body: shapes added and subtracted in the order of the scene. A position on a surface belongs to the
- * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. */
+ * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. With what
+ * slots among the cracks take from it a body is read in crack_read.c (pg_body_read). */
 #include "crack.h"
 #include "shape.h"
 #include <float.h>

@@ -4,7 +4,8 @@
  * by the tolerance. The ends of a bond are put in a fixed order first, so that x - y and y - x have the
  * same bits.
  *
- * `retreat` takes strips along tips and fronts away from a crack (mechanics/model/tips.c chooses their
+ * `retreat` takes strips along tips and fronts away from a crack (mechanics/model/pre_crack_tips.c
+ * chooses their
  * widths): bonds
  * that cross the crack there are not cut.
  *

@@ -163,7 +163,8 @@ static void principals (const others *o, size_t p, double *out, double *room)
     for (size_t k = 0; k < n; k++) out[k] = three[3 * k], out[n + k] = three[3 * k + 2];
 }
 
-/* What a point shows at all displacements. */
+/* Principal stresses, or displacements, of point p for each of the displacement fields that are asked
+ * about. */
 static void show (const others *o, size_t p, double *out, double *room)
 {
     if (o->stress) principals (o, p, out, room);

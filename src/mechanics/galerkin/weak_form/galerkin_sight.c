@@ -12,7 +12,8 @@ enum { NODES = 2, POINTS = GALERKIN_BLOCK };
 struct galerkin_sight {
     size_t  n, nodes, *start;                          /* nodes: blocks of nodes */
     int    *sees;
-    unsigned char *node, *active;                      /* scratch: marks of blocks */
+    /* scratch: 1 for each block of nodes, and of points, that is to be looked at */
+    unsigned char *node, *active;
 };
 
 static size_t blocks_of (size_t n, size_t size) { return (n + size - 1) / size; }

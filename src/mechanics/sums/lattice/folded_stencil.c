@@ -109,7 +109,8 @@ static void set_groups (struct folding *g, const stencil *s)
     }
 }
 
-/* Made where the stencil allows it. */
+/* Sets up the folded stencil: one sum over pairs of opposite bonds for blocks all whose bonds live. *out
+ * stays NULL where it cannot be (outside the plane, finite stretch, solver.plain). */
 pg_status folding_create (struct folding **out, stencil *s)
 {
     pg_status status = PG_OK;
