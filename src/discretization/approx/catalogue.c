@@ -30,7 +30,7 @@ const pg_approx_type *pg_approx_first (void) { return table[0]; }
 
 const char *pg_approx_names (void) { return names + 1; }
 
-/* 1 if the key has that value. */
+/* Does the key of the scene have that value? */
 static int is (const pg_scene *scene, const char *key, const char *value)
 {
     const char *text = pg_scene_text (scene, "%s", key);
@@ -48,7 +48,7 @@ static pg_status check_horizon (const pg_approx *a, const pg_scene *scene, doubl
     return pg_scene_verdict (scene);
 }
 
-/* Weights: `auto` keeps what the approximation prefers. */
+/* Reads method.* for shape functions. method.weights `auto` keeps what the approximation prefers. */
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
 {
     pg_status status = PG_OK;
@@ -70,8 +70,8 @@ done:
     return status;
 }
 
-/* The first approximation of the table whose N is 1 at its own node stands in: it only serves
- * to sample fields between points. */
+/* The approximation of forces without shape functions: the first of the table whose N is 1 at its own node;
+ * it only serves to sample fields between points. */
 pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double spacing, const char *kernel,
                                  double horizon)
 {

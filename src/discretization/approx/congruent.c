@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rows of places whose surroundings are alike (congruent.h). */
+ * Cache of the shape functions of positions with equal surroundings (congruent.h). */
 #include "congruent.h"
 #include <string.h>
 
-/* Slots at most; rows below which keeping costs more than it spares; rows that may find nothing to copy,
- * one behind the other, before no more are looked for. */
+/* SLOTS: most slots. FEW: calls with fewer rows keep nothing, as that costs more than it saves. PATIENCE:
+ * after this many rows in succession without an equal one the search is given up. */
 enum { SLOTS = 1024, FEW = 16, PATIENCE = 8 * SLOTS };
 
 /* Adding and subtracting this rounds a number of size 1 to a multiple of 2^-40: from 4096 on numbers are
@@ -20,7 +20,7 @@ struct congruent_slot {
     unsigned char grade;
 };
 
-/* Numbers in the store for one slot. */
+/* Doubles in the store for one slot. */
 static size_t stride (const congruent *c) { return c->most * (2 * (size_t) c->dim + 3); }
 
 pg_status congruent_create (congruent *out, const pg_rows *rows, size_t count, size_t most)
@@ -49,8 +49,8 @@ void congruent_round (size_t n, double *z)
     for (size_t k = 0; k < n; k++) z[k] = (z[k] + ROUNDING) - ROUNDING;
 }
 
-/* A fingerprint of the surroundings: from a few of the bonds, for those that differ anywhere mostly differ
- * there. */
+/* A fingerprint of the surroundings, computed from a few of the bonds only: surroundings that differ anywhere
+ * mostly differ there. */
 static uint64_t fingerprint (const pg_neighbourhood *s, size_t n)
 {
     size_t dim = (size_t) s->dim, numbers = s->n * dim;
@@ -58,7 +58,8 @@ static uint64_t fingerprint (const pg_neighbourhood *s, size_t n)
     return s->n ? pg_fingerprint_numbers (print, dim, 1, s->z + numbers - dim) : print;
 }
 
-/* Have the nodes of row i these volumes? To the bit: on a lattice they are 1 to 8 eighths of a cell. */
+/* Do the n nodes have the volumes in `kept`, bit by bit? On a lattice volumes are 1 to 8 eighths of a
+ * cell. */
 static int same_volumes (const double *kept, const double *volume, const int *node, size_t n)
 {
     for (size_t k = 0; k < n; k++) if (kept[k] != volume[node[k]]) return 0;
@@ -80,7 +81,7 @@ int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volum
            *dN = N + c->most;
     if (!k->used || k->print != print || k->n != n
         || memcmp (z, s->z, s->n * dim * sizeof *z) != 0 || !same_volumes (v, volume, node, n)) {
-        /* The bonds are kept now, for computing the row reorders them. */
+        /* The bonds are stored now, since computing the row reorders them. */
         *k = (struct congruent_slot) { print, n, 0, 0 };
         memcpy (z, s->z, s->n * dim * sizeof *z);
         c->missed++;

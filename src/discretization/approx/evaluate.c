@@ -16,18 +16,18 @@ typedef struct {
     pg_rows *rows;
     const unsigned char *alive;
     const size_t *list;
-    /* Scratch space, and surroundings evaluated lately, one for each thread. */
+    /* Scratch space, and the cache of shape functions evaluated lately (congruent.h), one for each thread. */
     pg_neighbourhood *around;
     congruent *known;
-    /* A node nearer than this to a place is at it, m. */
+    /* A node nearer to a position than this counts as coinciding with it, m. */
     double same;
 } evaluation;
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* Kernel and, where slopes are asked for, its derivative at q (n). Arguments are limited to 1: a family that
- * includes its edge may hold bonds that are longer by rounding; those below `nothing` are 0: at a node a
- * kernel may have a kink, and rounding would give it a direction. */
+/* Kernel values k and, if dk is not NULL, its derivatives at q (n). Arguments above 1 are set to 1: a closed
+ * family may hold bonds longer by rounding. Those below `nothing` are set to 0: at a node a kernel may have a
+ * kink, and rounding would give it a direction. */
 static void kernel_at (const pg_kernel *kernel, double nothing, size_t n, double *q, double *k, double *dk)
 {
     for (size_t i = 0; i < n; i++) q[i] = q[i] > 1 ? 1 : q[i] < nothing ? 0 : q[i];
@@ -100,7 +100,7 @@ static void tensor (const pg_kernel *kernel, double nothing, pg_neighbourhood *s
     }
 }
 
-/* The node that row i is, or else the nearest one that it sees; -1: it sees none. */
+/* The node that row i coincides with, else the nearest one in its family; -1: the family is empty. */
 INLINE int nearest_node (const evaluation *g, size_t i, size_t dim)
 {
     const pg_rows *rows = g->rows;
@@ -119,7 +119,7 @@ INLINE int nearest_node (const evaluation *g, size_t i, size_t dim)
     return nearest;
 }
 
-/* Support radius and spacing at row i, those of its nearest node where spacings differ. */
+/* Sets support radius and spacing at row i: those of its nearest node where spacings differ. */
 INLINE void measure_place (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
     int nearest = g->cloud->size ? nearest_node (g, i, dim) : -1;
@@ -131,8 +131,8 @@ INLINE void measure_place (const evaluation *g, size_t i, size_t dim, pg_neighbo
     s->h = g->cloud->h * ratio / s->slender;
 }
 
-/* Collects the live bonds of row i. A node that expands about its own value is not its own
- * neighbour. ratio: a / a_j, the kernel's radius at the place over that of the node. */
+/* Collects the intact bonds of row i. A node that expands about its own value is not its own neighbour.
+ * ratio: a / a_j, the support radius at the position over that of the neighbour. */
 INLINE void gather_those (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
@@ -163,8 +163,8 @@ static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
     else gather_those (g, i, 1, s);
 }
 
-/* Collects the bonds of row i in horizons, rounded (congruent.h), if they all live, the row is of no node
- * that expands about itself, and the cloud has one spacing; 0: it is none such. */
+/* Collects the bonds of row i in horizons, rounded (congruent.h), if they are all intact, the row does not
+ * expand about a node, and the cloud has one spacing. Returns 0 otherwise. */
 static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
@@ -206,7 +206,7 @@ INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbour
         size_t e = entry[j];
         double V = volume[node[e]], scale = by_volume ? V : 1, weight = w[j] * scale;
         if (influence) influence[e] = w[j] * V;
-        /* what is not finite stays, and shows in the total */
+        /* a weight that is not finite is kept, so that the total is not finite either */
         if (weight <= 0 && weight > -INFINITY) continue;
         w[kept] = weight, total += weight;
         for (size_t k = 0; k < dim && sloped; k++) slope[kept*dim + k] = slope[j*dim + k] * scale;
@@ -222,7 +222,7 @@ INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbour
     for (size_t j = 0; sloped && j < kept * dim; j++) slope[j] /= total;
 }
 
-/* Slopes where derivatives will be asked for (fill). */
+/* Computes the weights of row i; their slopes only where derivatives will be needed (fill). */
 static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     s->sloped = g->rows->dN || s->lost || (g->rows->N && !g->formula->values);
@@ -231,11 +231,10 @@ static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
     else weigh_those (g, i, 1, s);
 }
 
-/* 1 if the place has lost bonds and one of those left enters its derivatives by more than
- * PG_STEEPEST / a (intact places: up to 3 / a; across a stretched support as much more as it is thinner).
- * Such derivatives hang on influences near zero,
- * whose own derivatives outgrow them: a place like that would feed energy into the body
- * instead of taking it out. */
+/* 1 if the position has lost bonds and the derivatives of one of those left exceed PG_STEEPEST / a (intact:
+ * up to 3 / a; across an anisotropic support more, by its aspect ratio). Such derivatives come from kernel
+ * values near zero, which decay faster than their slopes: the point would feed energy into the body instead
+ * of taking it out. */
 static int wild (const pg_neighbourhood *s, const double *dN)
 {
     double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a * s->wide * s->slender;
@@ -256,7 +255,7 @@ static void clear (pg_rows *rows, size_t first, size_t last)
     for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
-/* Is the moment matrix of the neighbours close to singular? With whole supports the least pivot of a
+/* Is the moment matrix of the neighbours close to singular? With intact supports the least pivot of a
  * quadratic basis is about 1e-3. */
 static int frail (const pg_neighbourhood *s)
 {
@@ -265,10 +264,10 @@ static int frail (const pg_neighbourhood *s)
     return 0;
 }
 
-/* Shape functions by the richest basis that the live bonds can carry, as values first to last - 1 of the
- * rows; returns its grade.
- * Derivatives that the caller did not ask for go to scratch space, where the rule for steep
- * ones or the formula needs them. */
+/* Shape functions by the richest basis that the intact bonds can carry, written to values first .. last - 1
+ * of the rows; returns its grade.
+ * Derivatives that the caller did not ask for go to scratch space, where the test for steep ones or the
+ * formula needs them. */
 static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
@@ -302,7 +301,7 @@ static void row (const evaluation *g, size_t i, pg_neighbourhood *s, congruent *
     double *N = rows->N ? rows->N + first : s->k;
     int grade = fill (g, s, rows, first, last);
     if (grade > PG_GRADE_PROJECTED && s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
-    /* a node keeps its own displacement, whatever it lost */
+    /* a node that expands about itself keeps its own displacement, whatever it lost */
     if (grade > PG_GRADE_PROJECTED && !s->constant) {
         N[s->own] = 1;
         grade = PG_GRADE_SHEPARD;
@@ -319,8 +318,8 @@ static void work (void *context, size_t first, size_t last, int thread)
         row (g, g->list ? g->list[k] : k, &g->around[thread], &g->known[thread]);
 }
 
-/* Scratch space for one thread, for families of at most `most` nodes; all vectors are parts of
- * one block. */
+/* Allocates scratch space for one thread, for families of at most `most` nodes; all vectors are parts of one
+ * block. */
 static pg_status neighbourhood_create (pg_neighbourhood *s, const pg_approx *a, const pg_cloud *cloud,
                                        int dim, size_t most)
 {
@@ -342,8 +341,7 @@ done:
     return status;
 }
 
-/* Weights that are no number, or infinite, end the evaluation: left out they would be bonds that are missing
- * without a word. */
+/* Fails if a weight is NaN or infinite: left out, such bonds would be missing silently. */
 static pg_status refuse_strange (const evaluation *g, size_t slots)
 {
     pg_status status = PG_OK;
@@ -361,7 +359,8 @@ done:
     return status;
 }
 
-/* A stray node is noted by its thread and reported after the loop, since threads cannot fail. */
+/* A node missing in its own family is noted by its thread and reported after the loop, since threads cannot
+ * fail. */
 pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
                            pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
                            int threads)

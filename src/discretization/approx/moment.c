@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The moment matrix of a point and what follows from it, shared by all approximations. With
- * z_j = (x_j - x) / a, the bond to the neighbour j in horizons,
+ * The moment matrix of a point and what follows from it, shared by all approximations. With z_j = (x_j - x)
+ * / a, the bond to the neighbour j in horizons,
  *
- *   p (z) = [1], z_k, [z_k z_l]        A = sum_j w_j p_j p_j' = L L'
- *   N_j = e_0' A^-1 p_j w_j            dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j
+ *     p (z) = [1], z_k, [z_k z_l]         A = sum_j w_j p_j p_j' = L L'
+ *     N_j = e_0' A^-1 p_j w_j             dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j
  *
- * (doc/method.md E1; without the 1 it is the shape tensor of D1). Lengths in horizons and
- * weights of sum 1 keep A well scaled in any unit. A is factored by Cholesky, which also tells
- * whether the neighbours can carry the basis: a pivot below 1e-8 (quadratic: 1e-10) of the
- * diagonal counts as zero. */
+ * (doc/method.md E1; without the 1 it is the shape tensor of D1). Lengths in horizons and weights of sum 1
+ * keep A well scaled in any unit. A is factored by Cholesky, which also shows whether the neighbours suffice
+ * for the basis: a pivot below 1e-8 (quadratic: 1e-10) of the diagonal counts as zero. */
 #include "moment.h"
 #include <math.h>
 #include <string.h>
@@ -19,8 +18,8 @@ static int basis_size (int dim, int order, int constant)
     return constant + dim + (order == 2 ? dim * (dim + 1) / 2 : 0);
 }
 
-/* A (size x size, all of it) += w p p'. Both halves are filled, because loops of constant
- * length over whole rows become vector instructions. */
+/* A (size x size) += w p p'. Both triangles are filled, because loops of constant length over whole rows
+ * become vector instructions. */
 static inline __attribute__ ((always_inline)) void add_moment (int size, double w, const double *p, double *A)
 {
     for (int r = 0; r < size; r++) {
@@ -29,7 +28,7 @@ static inline __attribute__ ((always_inline)) void add_moment (int size, double 
     }
 }
 
-/* p of all neighbours, and A (size x size). */
+/* Computes p of all neighbours, and A (size x size). */
 static inline __attribute__ ((always_inline)) void moments (pg_neighbourhood *s, int dim, int order,
                                                             int constant, int size, double *A)
 {
@@ -40,7 +39,7 @@ static inline __attribute__ ((always_inline)) void moments (pg_neighbourhood *s,
     }
 }
 
-/* The usual ones, all their loops known: quadratic and linear, in the plane and in space. */
+/* Sums up A; for quadratic and linear bases in 2D and 3D by code with all loop lengths known. */
 PG_WIDE static void fill_moments (pg_neighbourhood *s, double *A)
 {
     int plane = s->constant && s->dim == 2, solid = s->constant && s->dim == 3;
@@ -94,7 +93,7 @@ static int thin (const pg_neighbourhood *s, double h, double *M)
     return pg_dense_cholesky (dim, M, 0) != 0;
 }
 
-/* From the bonds, where the basis does not begin with 1. */
+/* Do the neighbours lie almost on a line or plane? For a basis without the constant, from the bonds. */
 static int flat (const pg_neighbourhood *s, double h)
 {
     double centre[3] = { 0 }, M[9];
@@ -103,7 +102,8 @@ static int flat (const pg_neighbourhood *s, double h)
     return thin (s, h, M);
 }
 
-/* Else A, of weights of sum 1, holds the centre in its first row and the second moment about the place. */
+/* Do the neighbours lie almost on a line or plane? For a basis with the constant, from A, whose first row
+ * holds the centre, and whose other entries the second moment about the position. */
 static int flat_by_moments (const pg_neighbourhood *s, double h, const double *A)
 {
     double M[9];
@@ -114,8 +114,8 @@ static int flat_by_moments (const pg_neighbourhood *s, double h, const double *A
     return thin (s, h, M);
 }
 
-/* What remains where the neighbours spread too little: a projected basis if that is allowed,
- * else Shepard's. */
+/* The basis where the neighbours spread too little: a projected one if that is allowed, else Shepard's (the
+ * constant). */
 static int left_over (pg_neighbourhood *s, int order, double h)
 {
     if (!s->project || order != 1) return PG_GRADE_SHEPARD;
@@ -190,8 +190,8 @@ void pg_neighbourhood_differential (const pg_neighbourhood *s, double *dN)
     }
 }
 
-/* One column of values (stride numbers apart), whose sums of the basis should be `target` at place `row` and
- * 0 elsewhere. */
+/* Refines one column of values (`stride` apart): sum_j p_j value_j should be `target` for function `row` of
+ * the basis and 0 for the others. */
 static void refine (const pg_neighbourhood *s, double *value, size_t stride, int row, double target)
 {
     for (int pass = 0; pass < 2; pass++) {

@@ -10,8 +10,7 @@
 #include "entries.h"
 #include "moment.h"
 
-/* With the derivative of the own node as minus the sum of the others, a constant field has no
- * gradient. */
+/* The derivative of the own node is minus the sum of the others, so that a constant field has no gradient. */
 static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     size_t dim = (size_t) s->dim;

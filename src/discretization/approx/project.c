@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a linear basis can still do where the neighbours of a place lie on a line or on a plane
- * (doc/method.md F3, item 3). About their centre c the basis is p = (1, z - c), so that A =
- * diag (1, M) with M = sum w (z - c)(z - c)'. With M+, the inverse on the directions that are
- * left, G = diag (1, M+) stands in for A^-1. Let P project on these directions:
+ * The linear basis where the neighbours of a position lie on a line or on a plane (doc/method.md F3, item
+ * 3). About their centre c the basis is p = (1, z - c), so that A = diag (1, M) with M = sum w (z - c)(z -
+ * c)'. With M+, the inverse on the directions that are left, G = diag (1, M+) replaces A^-1. With P the
+ * projection on these directions:
  *
- *   A G p (0) = (1, - P c) = p (foot of the place on the line or plane),     A G e_k = P e_k.
+ *     A G p (0) = (1, - P c) = p (foot of the position on the line or plane),    A G e_k = P e_k.
  *
- * So the shape functions sum to 1 and their derivatives to 0 for any place. The Moore-Penrose
- * inverse of A about the place itself agrees where the place lies on the line or plane; beside
- * it, p (0) leaves the range of A, and both sums are lost. At a node of nosb c = 0: M is A
- * itself, and lines and planes pass through the node. */
+ * So the shape functions sum to 1 and their derivatives to 0 for any position. The Moore-Penrose inverse of
+ * A about the position itself gives the same if it lies on the line or plane; elsewhere p (0) leaves the
+ * range of A, and both sums are lost. At a node of nosb c = 0: M is A itself, and lines and planes pass
+ * through the node. */
 #include "moment.h"
 
 /* M+ (dim x dim) of the symmetric M (lower triangle given): directions with an eigenvalue
@@ -31,8 +31,8 @@ static int invert_spread (int dim, double *M, double limit, double *inverse)
     return kept;
 }
 
-/* p = ([1] z - c). A second pass removes the rounding of c, which M+ would enlarge where the
- * weights are very uneven. */
+/* Basis p = ([1] z - c) about the weighted centre c. A second pass removes the rounding of c, which M+ would
+ * enlarge where the weights are very uneven. */
 static void centred_basis (pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, one = (size_t) s->constant, size = dim + one;

@@ -12,12 +12,12 @@
 #include "entries.h"
 #include "moment.h"
 
-/* One number of b and those of r for all k. */
+/* One entry of b in lane 0, those of r for all k in lanes 1 to 3. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* N and r = a A,k b for all k (dim x size). What b does along the axes at each bond is kept in s->dk. */
+/* N and r = a A,k b for all k (dim x size). The gradient of b . p at each bond is kept in s->dk. */
 INLINE void rates (const pg_neighbourhood *s, int dim, int order, int size, const double *b, double *N,
                    double r[3][PG_BASIS_MAX])
 {
@@ -54,7 +54,7 @@ INLINE void gradients (const pg_neighbourhood *s, size_t dim, int size, const do
     }
 }
 
-/* The usual bases with all their loops known. */
+/* Calls `rates`, for the usual bases with all loop lengths known. */
 PG_WIDE static void moment_rate (const pg_neighbourhood *s, const double *b, double *N,
                                  double r[3][PG_BASIS_MAX])
 {
@@ -75,7 +75,7 @@ PG_WIDE static void derivatives (const pg_neighbourhood *s, const double *b, dou
     else gradients (s, (size_t) s->dim, s->size, b, r, dN);
 }
 
-/* N, then b,k, then the derivatives. */
+/* Computes N, then b,k, then the derivatives. */
 static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX], r[3][PG_BASIS_MAX];

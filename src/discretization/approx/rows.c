@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Evaluation points with their families, and the memory for their shape functions. Families
- * are searched once; breaking bonds changes the live list, not the families. */
+ * Evaluation points with their families, and the memory for their shape functions. Families are searched
+ * once; breaking bonds changes the flags of intact bonds, not the families. */
 #include "perigal/approx.h"
 #include <math.h>
 #include <string.h>
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* All places count as dead until they are evaluated. */
+/* Allocates the values. Every point has the grade PG_GRADE_DEAD until it is evaluated. */
 pg_status pg_rows_values (pg_rows *rows)
 {
     pg_status status = PG_OK;

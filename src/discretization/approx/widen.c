@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Wider supports for places that see too little. In the corner of a cut cell, beside a crack, or where points
- * are sparse a place may see so few nodes, or nodes so nearly on a line, that its basis is lowered to a
- * constant, or that N and dN are large multiples of what they are elsewhere. Only values at places enter the
- * weak form, so that N need not be continuous from place to place: each may have a support of its own. */
+ * Wider supports for positions with too few neighbours. In the corner of a cut cell, beside a crack, or
+ * where points are sparse, a position may have so few neighbours, or neighbours so nearly on a line, that
+ * its basis is lowered to a constant, or that N and dN are large multiples of what they are elsewhere. Only
+ * values at evaluation points enter the weak form, so that N need not be continuous between them: each may
+ * have a support of its own. */
 #include "perigal/approx.h"
 #include <math.h>
 #include <string.h>
 
-/* The supports that are tried, over the usual one; up to FOR_FULL of them a quadratic basis is sought before
- * a linear one is taken. */
+/* Radii of the supports that are tried, over the usual one; up to for_full a quadratic basis is sought before
+ * a linear one is accepted. */
 static const double factors[] = { 1.15, 1.3, 1.45, 1.6, 1.8, 2, 2.25, PG_WIDEST_SUPPORT };
 static const double for_full = 1.6;
-/* Places at a time, which bounds the memory. On a lattice a place is looked at if it sees fewer nodes than
- * this share of those in a whole support. */
+/* CHUNK: positions at a time, which bounds the memory. SAMPLE: positions that are sampled to judge the whole
+ * body. complete: on a lattice a position is examined if it has fewer neighbours than this share of those in
+ * a whole support. */
 enum { CHUNK = 16384, SAMPLE = 256 };
 static const double complete = 0.85;
-/* More lowered places than this share, or more of those in the midst of others: the horizon is too small for
- * the basis everywhere, which is no fault of these places. */
+/* If more than this share of the positions has a lowered basis, the horizon is too small for the basis
+ * everywhere, and wider supports of single positions are no remedy. */
 static const double usual = 0.1;
-/* A place this near to the middle of what it sees, over its reach, is in the midst of it. */
+/* A position counts as surrounded by its neighbours if their mean lies within MIDST horizons of it. */
 static const double MIDST = 0.1;
-/* How well a place sees. */
+/* Quality of the basis at a position. */
 enum { POOR, LOWERED, GOOD };
 
 typedef struct {
@@ -30,17 +32,19 @@ typedef struct {
     pg_sight sees;
     void *context;
     int threads;
-    /* What is left to do: places (n), what the best support so far shows to each, that support (0: none), and
-     * where its nodes are in `node`. */
+    /* What is left to do: number of positions, which they are (n), where in `node` the neighbours in the best
+     * support so far begin, and how many they are. */
     size_t n, *place, *at, *count;
-    /* Most places in the midst of irregular points see too little: the horizon is too small for them all. */
+    /* 1: most sampled positions that are surrounded by irregular points have too poor a basis: the horizon is
+     * too small. */
     int too_small;
     unsigned char *best;
     double *factor;
     int *node;  size_t used, cap;
 } work;
 
-/* The places at hand as rows of their own; `place`: which they are. */
+/* A group of positions as rows of their own; place: their numbers in w->rows. sight: POOR, LOWERED or
+ * GOOD. */
 typedef struct { const work *w; const size_t *place; pg_rows rows; unsigned char *alive, *sight; } lot;
 
 static void lot_clear (lot *l)
@@ -61,7 +65,7 @@ static double spacing_at (const pg_cloud *c, const pg_rows *r, size_t i)
     return h;
 }
 
-/* By the basis that the place has, and by how much a node counts there. */
+/* Quality of the basis at row i, by its grade and by the sums of |N| and |dN|. */
 static int judge (const work *w, const pg_rows *r, size_t i)
 {
     double value = 0, slope = 0, h = spacing_at (w->cloud, r, i);
@@ -94,7 +98,7 @@ static void judge_those (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) l->sight[i] = (unsigned char) judge (l->w, &l->rows, i);
 }
 
-/* Values of the places of a lot, whose families are there, and how well each sees. */
+/* Evaluates the rows of a lot, whose families are known, and judges the basis of each. */
 static pg_status measure (lot *l)
 {
     pg_status status = PG_OK;
@@ -114,7 +118,7 @@ done:
 /* Functions of the quadratic basis, by dimension. */
 static const int functions[] = { 3, 6, 10 };
 
-/* Nodes that a whole support on a lattice holds, by its volume. */
+/* Number of nodes that a whole support holds on a lattice, estimated by its volume. */
 static double whole_support (const work *w)
 {
     const pg_cloud *c = w->cloud;
@@ -140,8 +144,8 @@ static int nodes_within (const work *w)
     return count;
 }
 
-/* Could the place be poor? Away from a lattice each one; on a lattice those that see part of the nodes that a
- * whole support has. */
+/* Could the basis at position i be poor? Always possible away from a lattice; on a lattice only where
+ * neighbours are missing. */
 static int suspect (const work *w, size_t i)
 {
     const pg_cloud *c = w->cloud;
@@ -153,14 +157,14 @@ static int suspect (const work *w, size_t i)
     return (double) seen < complete * whole_support (w);
 }
 
-/* A node that sees no other one within its horizon is joined to none: that is told, not mended. */
+/* A node without any neighbour within its horizon: it is reported elsewhere and gets no wider support. */
 static int is_apart (const work *w, size_t i)
 {
     const pg_family *f = &w->rows->family;
     return w->rows->own[i] >= 0 && w->cloud->n > 1 && f->start[i + 1] - f->start[i] <= 1;
 }
 
-/* Rows of the places of a lot with the families that they have. */
+/* Copies the positions and families of a lot from the rows being worked on. */
 static pg_status take (lot *l, size_t n)
 {
     pg_status status = PG_OK;
@@ -188,8 +192,8 @@ done:
     return status;
 }
 
-/* On a lattice: is the basis lowered at places that see all that a support holds? Some of those that are not
- * suspect, evenly among the rows. */
+/* On a lattice: is the basis lowered even at positions with whole supports? Examines a sample of the
+ * positions that are not suspect, evenly spaced among the rows. */
 static pg_status whole_are_lowered (const work *w, int *answer)
 {
     pg_status status = PG_OK;
@@ -208,7 +212,7 @@ done:
     return status;
 }
 
-/* Is place k of a lot in the midst of the nodes that it sees? */
+/* Is position k of a lot surrounded by its neighbours (MIDST)? */
 static int in_midst (const lot *l, size_t k)
 {
     const pg_family *f = &l->rows.family;
@@ -223,9 +227,10 @@ static int in_midst (const lot *l, size_t k)
     return count > 0 && square < reach * reach;
 }
 
-/* Shares of the places in the midst of irregular points that see less than well, and too little. By places
- * a Gauss point away from some of the nodes, so that all sets of rows of a cloud go by the same: one place
- * may be in two of them, as a point of a facet and of the face of its cell, and must have one support. */
+/* Shares of positions amid irregular points whose basis is less than GOOD, and POOR. The positions lie about
+ * a Gauss point away from some of the nodes and do not depend on the rows at hand: all sets of rows of a
+ * cloud must decide alike, as one position may be in two of them, as a point of a facet and of the face of
+ * its cell. */
 static pg_status look_amidst (const work *w, double *less, double *little)
 {
     pg_status status = PG_OK;
@@ -255,7 +260,7 @@ done:
     return status;
 }
 
-/* The first look, at the supports that places have: those that see less than well. */
+/* Finds the positions whose basis is less than GOOD with their present supports. */
 static pg_status find_poor (work *w)
 {
     pg_status status = PG_OK;
@@ -299,7 +304,7 @@ done:
     return status;
 }
 
-/* Tries one support at all places that want a better one. */
+/* Tries supports wider by `factor` at all positions whose best basis so far is not good enough. */
 static pg_status attempt (work *w, double factor)
 {
     pg_status status = PG_OK;
@@ -343,7 +348,7 @@ done:
     return status;
 }
 
-/* Square of the distance from place k to the middle of the nodes that it sees now, m^2. */
+/* Square of the distance from position k to the mean of the neighbours in its new support, m^2. */
 static double off_middle (const work *w, size_t k)
 {
     size_t dim = (size_t) w->rows->dim, count = 0;
@@ -359,8 +364,8 @@ static double off_middle (const work *w, size_t k)
     return square;
 }
 
-/* Places in the midst of the nodes that they see now: what they saw before was little because the horizon is
- * small, not because they are at the surface. */
+/* Number of positions that are surrounded by the neighbours in their new supports: they had too few because
+ * the horizon is small, not because they are at the surface. */
 static size_t inner_places (const work *w)
 {
     size_t n = 0;
@@ -371,7 +376,7 @@ static size_t inner_places (const work *w)
     return n;
 }
 
-/* Families of the rows, with those that have been found for some of them. */
+/* Replaces the families of those rows for which a better support has been found. */
 static pg_status replace (const work *w, pg_rows *rows)
 {
     pg_status status = PG_OK;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Surface quadrature that closes. The divergence identity of a cell leaves constants without a gradient, and
- * gives linear fields theirs, only if its quadrature obeys
+ * Surface quadrature that closes: it satisfies the divergence theorem for 1 and x. With the divergence
+ * identity of a cell constants have no gradient and linear fields theirs only if its quadrature obeys
  *
- *     sum_e q (e) F_e = sum_g w_g grad q (g),     q = 1, x, y, z,     F_e: weight times outward normal.
+ *     sum_e q (e) F_e = sum_g w_g grad q (g),   q = 1, x, y, z,   F_e: weight times outward normal.
  *
  * Straight cells do, to rounding. On pieces of a curved surface the quadrature misses it by the error of its
- * order. Per cell and component k the fluxes of its boundary facets are therefore changed as little as
+ * order, r_k. Per cell and component k the fluxes of its boundary facets are therefore changed as little as
  * possible,
  *
- *     minimise sum_e |dF_e|^2 / (s_e |F_e|),   subject to   sum_e q (e) dF_e,k = - r_k (q),
- *     dF_e,k = s_e |F_e| q (e)' c_k,           (sum_e s_e |F_e| q q') c_k = - r_k,
+ *     minimise  sum_e |dF_e|^2 / (s_e |F_e|),   subject to  sum_e q (e) dF_e,k = - r_k (q),
+ *     dF_e,k = s_e |F_e| q (e)' c_k,             (sum_e s_e |F_e| q q') c_k = - r_k,
  *
  * with s = 1 on curved facets and FLAT on flat ones. Faces between cells keep their fluxes. */
 #include "consistent.h"
@@ -18,9 +18,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Weight of flat facets; what counts as rounding, over the border of the cell; eigenvalues left out, over the
- * largest, and how much more of them when a flux would change too much; a facet that may vanish, over the
- * border; repetitions. */
+/* FLAT: s of flat facets. ROUNDING: residual that counts as rounding, over the area of the cell's border.
+ * LEFT_OUT: eigenvalues left out, over the largest; RAISE: factor on it while a flux would change by more
+ * than the share MOST. NOTHING: area of a facet whose flux may change freely, over that of the border. TIMES:
+ * repetitions. */
 static const double FLAT = 1e-6, ROUNDING = 2e-15, LEFT_OUT = 1e-13, RAISE = 100, MOST = 0.25, NOTHING = 1e-6;
 enum { TIMES = 5, SIZE = 4 };
 
@@ -29,13 +30,14 @@ typedef struct {
     const pg_rows *points;
     size_t cell, dim;
     double centre[3], size, border, volume;
-    /* What counts as rounding, over the border: more for coordinates far from the origin. */
+    /* What counts as rounding, over the border: more where coordinates are far from the origin. */
     double rounding;
-    /* Matrix of the facets, sum s |F| q q', and what is missed: by component, over the border. */
+    /* Matrix of the facets, sum s |F| q q', and the residuals r of the theorem by component, over the
+     * border. */
     double A[SIZE * SIZE], r[3][SIZE];
 } closing;
 
-/* 1 and the place relative to the centre. */
+/* q: 1 and the coordinates of x relative to the centre, over the size of the cell. */
 static void basis (const closing *l, const double *x, double *q)
 {
     q[0] = 1;
@@ -56,7 +58,7 @@ static int is_curved (const pg_faces *f, size_t face)
 
 static double weight_of (const pg_faces *f, size_t face) { return is_curved (f, face) ? 1 : FLAT; }
 
-/* Centre, size and volume of the cell. */
+/* Computes centre, size, border and volume of the cell. */
 static void find_middle (closing *l)
 {
     const pg_consistency *c = l->c;
@@ -80,7 +82,7 @@ static void find_middle (closing *l)
     l->rounding = ROUNDING + DBL_EPSILON * far / l->size;
 }
 
-/* What the theorem misses by, and the matrix. Returns the largest miss over the border. */
+/* Computes the residuals of the divergence theorem, r, and the matrix A. Returns the largest residual. */
 static double miss (closing *l)
 {
     const pg_consistency *c = l->c;
@@ -109,7 +111,7 @@ static double miss (closing *l)
     return most;
 }
 
-/* c_k by the eigenvectors that are not left out. */
+/* Solves A c_k = - r_k by the eigenvectors whose eigenvalues exceed `cut` times the largest. */
 static void solve (const closing *l, const double *lambda, const double *V, double cut, double c[3][SIZE])
 {
     size_t m = l->dim + 1;
@@ -122,8 +124,8 @@ static void solve (const closing *l, const double *lambda, const double *V, doub
         }
 }
 
-/* Visits all points of boundary facets of the cell: changes their fluxes (apply), or says whether one would
- * change by more than is allowed. */
+/* apply 1: adds the changes to the fluxes at all points of boundary facets of the cell. apply 0: returns 1 if
+ * one of them would change by more than is allowed. */
 static int change (closing *l, double c[3][SIZE], int apply)
 {
     pg_faces *f = &l->c->faces;
@@ -149,7 +151,7 @@ static int change (closing *l, double c[3][SIZE], int apply)
     return 0;
 }
 
-/* A box, or a simplex with straight edges: its rules obey the theorem for products as well. */
+/* Is the cell a box, or a simplex with straight edges? Their rules obey the theorem for products as well. */
 static int is_even (const pg_cells *c, size_t cell)
 {
     size_t dim = (size_t) c->dim;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 1, x, y, z, xy, yz, xz, xyz in 3D. */
+/* The polynomials: 1, x, y, z, xy, yz, xz, xyz in 3D. */
 enum { POLYNOMIALS = 8 };
 
 /* ---- set-up -------------------------------------------------------------------------------------------- */
@@ -21,9 +21,8 @@ static int compare_nodes (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Appends to `list` (n entries so far) the nodes that the points first .. last - 1 of a family see and that
- * are not in it yet: `seen` holds the stamp of the list that each node was last put into. Returns the new
- * length. */
+/* Appends to `list` (n entries so far) the nodes in the families of the points first .. last - 1 that are not
+ * in it yet: `seen` holds the stamp of the list that each node was last put into. Returns the new length. */
 static size_t collect (const pg_family *f, size_t first, size_t last, int *seen, int stamp, int *list,
                        size_t n)
 {
@@ -36,7 +35,7 @@ static size_t collect (const pg_family *f, size_t first, size_t last, int *seen,
     return n;
 }
 
-/* Of one cell: what its points and those of its faces see. */
+/* Appends the nodes in the families of the points of one cell and of its faces, as `collect`. */
 static size_t collect_cell (const pg_consistency *c, const pg_rows *points, size_t cell, int *seen, int stamp,
                             int *list, size_t n)
 {
@@ -48,9 +47,9 @@ static size_t collect_cell (const pg_consistency *c, const pg_rows *points, size
     return n;
 }
 
-/* One list of nodes, ascending, for all points of a cell: those that its points or the points of its faces
- * see, and of a host those of its guests. The identity must hold for each of these nodes, so that every point
- * of the cell needs a derivative for them. */
+/* One list of nodes, ascending, for all points of a cell: the families of its points and of the points of its
+ * faces, and, if the cell is a host, those of the small cells that it integrates. The identity must hold for
+ * each of these nodes, so that every point of the cell needs a derivative for them. */
 static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
 {
     pg_status status = PG_OK;
@@ -82,7 +81,8 @@ done:
     return status;
 }
 
-/* Places on the boundary look from their own side. */
+/* Positions just inside the body from which points on its boundary look for neighbours (pg_rows_eyes); NULL:
+ * nothing separates points. */
 static pg_status look_inward (double **eye, const pg_faces *f, const pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -186,8 +186,8 @@ static void polynomials (const space *s, const double *x, double *p, double *slo
     }
 }
 
-/* Is the cell so thin along an axis (its spread below 1 % of its size) that what its quadrature misses
- * would be amplified? */
+/* Is the cell so thin along an axis (its spread below 1 % of its size) that errors of its quadrature would be
+ * amplified? */
 static int thin (const space *s)
 {
     for (int k = 1; k <= s->dim && k < s->n; k++) if (s->L[k * s->n + k] < 1e-2 * s->L[0]) return 1;
@@ -208,7 +208,7 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
         for (size_t k = 0; k < dim; k++)
             s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
     if (!(s->size > 0)) s->size = 1;                   /* one point */
-    /* With products, linear, constant, none. */
+    /* Numbers of polynomials that are tried: with products, linear, constant, none. */
     const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };
     for (const int *size = sizes; (s->n = *size) > 0; size++) {
         if ((size_t) s->n > n) continue;
@@ -234,7 +234,7 @@ static void spread (size_t n, const int *node, size_t stride, const double *valu
     }
 }
 
-/* What all threads share. */
+/* Arguments and workspaces that all threads share. */
 typedef struct {
     const pg_consistency *c;
     const pg_rows *points;
@@ -247,10 +247,11 @@ typedef struct {
     double **workspace;
 } job;
 
-/* Four numbers at a time, with the same sums with and without such vectors. */
+/* Four numbers at a time; sums have the same order with and without vector instructions. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
 
-/* rest (m x dim) += rate (dim) times N (m), the outer product. Numbers of four nodes fill `dim` vectors. */
+/* rest (m x dim) += rate (dim) times N (m), the outer product. The values of four nodes fill `dim`
+ * vectors. */
 PG_WIDE static void add_rate_solid (size_t m, const double *rate, const double *N, double *rest)
 {
     four r[3] = { { rate[0], rate[1], rate[2], rate[0] }, { rate[1], rate[2], rate[0], rate[1] },
@@ -292,7 +293,7 @@ static void add_rate (size_t m, size_t dim, const double *rate, const double *N,
     else add_value (m, *rate, N, rest);
 }
 
-/* Adds that share of the volume terms of one point to the residual, - w (p,k N + p dN,k), into rest
+/* Adds `share` times the volume terms of one point to the residual, - w (p,k N + p dN,k), into rest
  * (polynomials x nodes x dim). */
 static void add_point (const job *j, const space *s, size_t q, double share, size_t m, const double *N,
                        const double *dN, double *rest)
@@ -307,7 +308,7 @@ static void add_point (const job *j, const space *s, size_t q, double share, siz
     }
 }
 
-/* The points of the cell itself. */
+/* Adds the volume terms of the points of the cell itself. */
 static void add_points (const job *j, const space *s, size_t cell, size_t m, double *rest)
 {
     const pg_rows *w = j->wide;
@@ -316,7 +317,7 @@ static void add_points (const job *j, const space *s, size_t cell, size_t m, dou
         add_point (j, s, q, 1, m, w->N + j->c->family.start[q], w->dN + j->c->family.start[q] * dim, rest);
 }
 
-/* Writes the direct values of a point into a longer list of nodes. */
+/* Writes the uncorrected N and dN of point q into a longer list of m nodes. */
 static void widen (const job *j, size_t q, size_t m, const int *node, double *N, double *dN)
 {
     const pg_rows *r = j->points;
@@ -327,7 +328,7 @@ static void widen (const job *j, size_t q, size_t m, const int *node, double *N,
     spread (n, r->family.node + from, dim, r->dN + from * dim, node, dN);
 }
 
-/* Adds that share of the surface term, oint p N n dS, over all faces of the cell; flux points out of the
+/* Adds `share` times the surface term, oint p N n dS, over all faces of the cell; flux points out of the
  * first cell of a face. */
 static void add_faces (const job *j, const space *s, size_t cell, double share, size_t m, const int *node,
                        double *rest, double *N)
@@ -367,7 +368,8 @@ static void correct (const job *j, const space *s, size_t cell, size_t m, const 
 }
 
 /* ---- what no derivatives can give ---------------------------------------------------------------------- */
-/* Functions of the projection: 1, z, and with a quadratic basis their products, which N reproduces. */
+/* Functions b that the projection uses: 1, z, and with a quadratic basis their products; N reproduces
+ * them. */
 enum { REPRODUCED = 10 };
 
 static int reproduced (const space *s, int quadratic, const double *x, double *b)
@@ -380,7 +382,7 @@ static int reproduced (const space *s, int quadratic, const double *x, double *b
     return n;
 }
 
-/* The matrix sum w b b' as its factor. Returns the number of functions, 0 if the points cannot tell them
+/* Factors the matrix L L' = sum w b b'. Returns the number of functions, 0 if the points cannot tell them
  * apart. */
 static int find_projection (const job *j, const space *s, size_t cell, int quadratic, double *L)
 {
@@ -396,7 +398,7 @@ static int find_projection (const job *j, const space *s, size_t cell, int quadr
     return pg_dense_cholesky (n, L, 1e-8) == 0 ? n : 0;
 }
 
-/* Do all points of the cell have the whole quadratic basis? */
+/* Do all points of the cell have a full quadratic basis? */
 static int has_quadratic (const job *j, size_t cell)
 {
     if (j->c->order < 2) return 0;
@@ -405,9 +407,9 @@ static int has_quadratic (const job *j, size_t cell)
     return 1;
 }
 
-/* The quadrature of the cell, or of a host with its guests, misses the divergence theorem for p_a q, a > 0,
- * q reproduced by N: sum_I R_aI q_I should be zero, since no derivatives that reproduce q give anything else.
- * What it is comes off as a force spread over the volume. Not for a = 0: the patch test needs each R_0I as it
+/* The quadrature of the cell, or of a host with its guests, misses the divergence theorem for p_a q, a > 0, q
+ * reproduced by N: sum_I R_aI q_I should be zero, as it is for all derivatives that reproduce q. Its actual
+ * value is subtracted as a force spread over the volume. Not for a = 0: the patch test needs each R_0I as it
  * is, and the fluxes obey the theorem for 1 and x. */
 static void project (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest)
 {
@@ -435,7 +437,7 @@ static void project (const job *j, const space *s, size_t cell, size_t m, const 
     }
 }
 
-/* Takes off what is left of sum_I dN_I at each point, in shares of N. */
+/* Subtracts what remains of sum_I dN_I at each point, distributed in proportion to N. */
 static void remove_sums (const job *j, size_t cell, size_t m)
 {
     size_t dim = (size_t) j->points->dim;
@@ -447,7 +449,7 @@ static void remove_sums (const job *j, size_t cell, size_t m)
 }
 
 /* ---- one cell ------------------------------------------------------------------------------------------ */
-/* Derivatives of a cell that obey the identity of the cell and its guests. */
+/* Computes derivatives of a cell that obey the identity of the cell and of its guests (small cells). */
 static void obey (const job *j, size_t cell, size_t m, const int *node, double *workspace)
 {
     const pg_consistency *c = j->c;
@@ -475,8 +477,8 @@ static void obey (const job *j, size_t cell, size_t m, const int *node, double *
     remove_sums (j, cell, m);
 }
 
-/* One cell: copies the uncorrected N and dN into lists with room for more nodes; then corrects them if the
- * cell is whole and not a small one that another cell integrates (hosts.c). */
+/* Treats one cell: copies the uncorrected N and dN into lists with room for more nodes; then corrects them if
+ * the cell has all its bonds (whole) and is not a small one that another cell integrates (hosts.c). */
 static void treat (const job *j, size_t cell, double *workspace)
 {
     const pg_consistency *c = j->c;
@@ -490,14 +492,14 @@ static void treat (const job *j, size_t cell, double *workspace)
     if (j->whole[cell] && !is_guest) obey (j, cell, m, node, workspace);
 }
 
-/* The cells first .. last - 1 of a thread. */
+/* Treats the cells first .. last - 1; run by each thread. */
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const job *j = context;
     for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->workspace[thread]);
 }
 
-/* Workspaces have room for the longest list of nodes. */
+/* Corrects the derivatives of the listed cells. Workspaces have room for the longest list of nodes. */
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
                                 const unsigned char *whole, const double *face, size_t count,
                                 const size_t *list, int threads)

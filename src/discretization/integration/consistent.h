@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to consistent integration: closing.c (fluxes of faces), hosts.c (small cells and what leans on
- * what). */
+ * Private to consistent integration: closing.c (fluxes of faces), hosts.c (small cells, and the cells that
+ * integrate them). */
 #ifndef PERIGAL_INTEGRATION_CONSISTENT_H
 #define PERIGAL_INTEGRATION_CONSISTENT_H
 #include "perigal/integration.h"

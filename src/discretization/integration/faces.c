@@ -60,7 +60,7 @@ static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, 
     const double *x = cells->x + cells->start[cell] * dim;
     pg_element face = pg_element_face (kind_of (cells, (size_t) cell), side, node);
     *c = (candidate) { .at = at, .cell = cell, .side = side, .corners = pg_element_types[face].corners };
-    /* no -0 */
+    /* + 0.0 turns -0 into +0 */
     for (int i = 0; i < c->corners; i++)
         for (size_t k = 0; k < dim; k++) c->corner[3 * i + (int) k] = x[(size_t) node[i] * dim + k] + 0.0;
     pg_sort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
@@ -77,9 +77,9 @@ static void describe_facet (candidate *c, const pg_cells *cells, size_t at, size
     pg_sort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
 }
 
-/* partner[at]: the number of the same face of the other cell, or -1 on the boundary (n faces). Where
- * facets of the boundary lie too, as along a seam of nodes that are there twice, faces at one place are
- * not the same. */
+/* Sets partner[at] to the number of the same face of the other cell, or to -1 on the boundary (n faces).
+ * Where a facet of the boundary lies at the same position, as along a seam of duplicated nodes, two faces are
+ * not paired. */
 static pg_status pair_up (long *partner, size_t n, const pg_cells *cells)
 {
     pg_status status = PG_OK;
@@ -103,7 +103,7 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* The faces under construction. */
+/* The faces while they are built. */
 typedef struct { pg_faces *out; size_t cap_x, cap_flux; const pg_cells *cells; int order; } builder;
 
 /* Appends a quadrature point to the present face. */
@@ -168,7 +168,7 @@ static void close_face (pg_faces *out, int cell, int other)
     out->start[++out->n] = out->npoint;
 }
 
-/* Faces between two cells, at the first of the two. */
+/* Appends the faces between two cells, with points on the side of the first of the two. */
 static pg_status add_inner (builder *b, const long *partner, const int *owner)
 {
     pg_status status = PG_OK;
@@ -186,8 +186,8 @@ done:
     return status;
 }
 
-/* Facets of the boundary with the points that loads use as well: the boundary terms of the identity then
- * equal the work of tractions. */
+/* Appends the facets of the boundary with the points that loads use as well: the boundary terms of the
+ * identity then equal the work of tractions. */
 static pg_status add_boundary (builder *b)
 {
     pg_status status = PG_OK;
@@ -221,7 +221,7 @@ done:
     return status;
 }
 
-/* Pairs first, because the number of faces decides how much memory there must be. */
+/* Faces are paired first, because their number decides how much memory is needed. */
 pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order)
 {
     pg_status status = PG_OK;

@@ -13,7 +13,7 @@ void pg_quadrature_clear (pg_quadrature *q)
 }
 
 /* ---- cells and facets ---------------------------------------------------------------------------------- */
-/* The cells, or the facets, to be integrated over, seen alike. */
+/* The cells, or the facets, to be integrated over, in a common form. */
 typedef struct {
     const pg_cells *cells;
     /* facets: 1 if these are facets. order: Gauss points per direction. */
@@ -22,14 +22,14 @@ typedef struct {
     size_t from, to;
     /* Kinds, first nodes and nodes as in pg_cells. */
     const unsigned char *kind;  const size_t *start;  const double *x;
-    /* Number of cut cells or facets, and of those already written; points of the k-th within `cut`: first[k]
-     * .. first[k + 1] - 1. */
+    /* Number of cut cells or facets, and of those already written; the k-th has the points first[k] ..
+     * first[k + 1] - 1 of `cut`. */
     size_t ncut, next;  size_t *first;
-    /* Points of all cut ones. */
+    /* Points of all cut cells or facets. */
     pg_cut_points cut;
 } mesh;
 
-/* Points of the cut ones: how many there are is known only after they have been found. */
+/* Finds the points of cut cells or facets: only afterwards is their number known. */
 static pg_status find_cut (mesh *m)
 {
     pg_status status = PG_OK;
@@ -66,11 +66,11 @@ done:
     return status;
 }
 
-/* The rule of a kind of element: weights, and the shape functions of the element at its points with their
- * derivatives, PG_ELEMENT_NODES of them or three times as many a point. */
+/* The quadrature rule of a kind of element: n weights, and at its points the element's shape functions N
+ * (PG_ELEMENT_NODES a point) and their derivatives dN (three times as many). */
 typedef struct { int kind, n; double w[PG_ELEMENT_POINTS], *N, *dN; } rule;
 
-/* Fills the rule for another kind. */
+/* Fills the rule for elements of another kind. */
 static void choose_rule (rule *r, int kind, int order)
 {
     double xi[3 * PG_ELEMENT_POINTS];
@@ -81,7 +81,7 @@ static void choose_rule (rule *r, int kind, int order)
                           r->dN + k * 3 * PG_ELEMENT_NODES);
 }
 
-/* Appends the points of a rule in element e, mapped; factor multiplies the weights. */
+/* Appends the points of the rule, mapped to element e; factor multiplies the weights. */
 static void add (pg_quadrature *out, const mesh *m, size_t e, const rule *r, double factor)
 {
     size_t dim = (size_t) m->dim;
@@ -96,8 +96,8 @@ static void add (pg_quadrature *out, const mesh *m, size_t e, const rule *r, dou
     }
 }
 
-/* Appends the points of cut element e. Scaling by size / sum removes the error of the order from the
- * volume. */
+/* Appends the points of cut element e. Scaling by size / sum makes the weights sum to the exact volume at any
+ * order. */
 static void add_cut (pg_quadrature *out, mesh *m, size_t e)
 {
     size_t dim = (size_t) m->dim, from = m->first[m->next++], n = m->first[m->next] - from;
@@ -114,7 +114,7 @@ static void add_cut (pg_quadrature *out, mesh *m, size_t e)
     out->n += n;
 }
 
-/* All elements in their order. The rule is looked up again only where the kind changes. */
+/* Appends the points of all elements in order. The rule is looked up again only where the kind changes. */
 static pg_status fill (pg_quadrature *out, mesh *m, double factor)
 {
     pg_status status = PG_OK;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Small cells lean on a neighbour: a cut cell of next to no volume, whose derivatives the divergence identity
- * would make as large as its size is small, keeps its direct derivatives, and the identity of its host is
- * that of both (cell aggregation: Badia, Verdugo, Martin 2018, doi 10.1016/j.cma.2018.03.022). The host is
- * the cell beyond its largest inner face, or the host of that if it is small as well. A cell with several
+ * Hosts of small cells: a cut cell of almost no volume, whose derivatives the divergence identity would make
+ * as large as its size is small, keeps its uncorrected derivatives, and another cell, its host, obeys the
+ * identity of both (cell aggregation: Badia, Verdugo, Martin 2018, doi 10.1016/j.cma.2018.03.022). The host
+ * is the cell beyond its largest inner face, or the host of that if it is small as well. A cell with several
  * such faces, as in the corner of a cell between two neighbours, has as many hosts, which share its
  * identity: none of them is chosen by rounding, or by its number. */
 #include "consistent.h"
@@ -11,13 +11,13 @@
 
 /* Share of the volume of a whole cell below which a cut cell is small. */
 static const double SMALL = 0.1;
-/* Volumes and areas that differ less than this, relatively, differ by rounding, as do those that differ by
- * what a surface sweeps that moves by the rounding of its coordinates. */
+/* Volumes and areas that differ by less than this, relatively, count as equal; so do those that differ by
+ * what rounding of coordinates can change. */
 static const double EQUAL = 1e-9;
-/* Hosts of small cells among small cells are sought so many times over; a cell has so many hosts at most. */
+/* PASSES: how often hosts of small cells among small cells are sought. HOSTS: most hosts of a cell. */
 enum { PASSES = 4, HOSTS = 16 };
 
-/* The hosts of a cell, and the share of it that each takes. */
+/* The hosts of a small cell, and the share of it that each takes. */
 typedef struct { int n, cell[HOSTS]; double share[HOSTS]; } lodging;
 
 /* Lengths of the sides of a cell's box, m. */
@@ -68,7 +68,8 @@ static void add_host (lodging *l, int cell, double share)
     l->share[k] += share;
 }
 
-/* The cell beyond a face to a cell that is not small or has a host (so far: before this pass); -1: none. */
+/* The cell on the other side of a face of `cell` if it is not small or has hosts already (before this pass);
+ * -1: there is none. */
 static int beyond (const pg_consistency *c, size_t face, size_t cell, const unsigned char *small,
                    const lodging *so_far)
 {
@@ -78,8 +79,8 @@ static int beyond (const pg_consistency *c, size_t face, size_t cell, const unsi
     return small[other] && so_far[other].n == 0 ? -1 : other;
 }
 
-/* The hosts of a small cell: the cell beyond its largest inner face, or the hosts of that; beyond faces of
- * the same size each takes the same share. */
+/* The hosts of a small cell: the cell beyond its largest inner face, or the hosts of that cell; cells beyond
+ * faces of equal size take equal shares. */
 static lodging lodge (const pg_consistency *c, size_t cell, const unsigned char *small, const lodging *so_far)
 {
     const pg_faces *f = &c->faces;
@@ -103,8 +104,8 @@ static lodging lodge (const pg_consistency *c, size_t cell, const unsigned char 
     return out;
 }
 
-/* Compressed rows of pairs (from -> to), in the order of `from`, ascending in `to` if they come so; with
- * `value`, one of each pair, in the same order in *sorted. */
+/* Builds compressed rows from pairs (from, to), ordered by `from`, and within a row as they come. With
+ * `value` (one a pair) *sorted has the values in the same order. */
 static pg_status gather (pg_family *out, size_t n, size_t npair, const int *pair, const double *value,
                          double **sorted)
 {
@@ -135,7 +136,7 @@ static void turn_pairs (int *pair, size_t count)
     }
 }
 
-/* The hosts of each cell and the guests of each, from what has been found. */
+/* Enters the hosts of each cell, and the guests (small cells) of each host. */
 static pg_status enter (pg_consistency *c, const lodging *of)
 {
     pg_status status = PG_OK;
@@ -180,8 +181,8 @@ done:
     return status;
 }
 
-/* The cells that must be complete for a cell to be whole: it, those beside it, and the same of its guests;
- * and the other way round. */
+/* Finds c->needs: the cells that must have all their bonds for the derivatives of a cell to be corrected:
+ * itself, its neighbours, and those of its guests; and the inverse relation, c->opens. */
 static pg_status find_needs (pg_consistency *c)
 {
     pg_status status = PG_OK;

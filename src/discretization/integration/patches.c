@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Patches of the dilatation (integration.h): which evaluation points share one mean dilatation.
  *
- * Units are cells, or points with nodal integration. On a lattice so many units per axis form a group,
- * divided evenly between the ends of the body, so that a mirrored body has mirrored patches. Elsewhere a
- * set of roots is chosen that keep a distance from each other, from the middle of the body outwards, and
+ * Units are cells, or points with nodal integration. On a lattice `across` units per axis form a group,
+ * divided evenly between the ends of the body, so that a mirrored body has mirrored patches. Elsewhere a set
+ * of root units is chosen that keep a distance from each other, from the middle of the body outwards, and
  * every unit goes to the nearest root. Groups are then divided by material, and those that are too small
- * join their neighbours: the nearest one, or in equal shares all that are as near, as the two beside the
- * corner of a square. Neither axes nor the numbers of cells decide. */
+ * join their neighbours: the nearest one, or, in equal shares, all that are equally near, as the two beside
+ * the corner of a square. The result depends neither on axes nor on the numbers of cells. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A group with less than this share of the full volume joins a neighbour: a patch of a sliver would bring
- * back the locking it is to remove. */
+/* A group with less than this share of the full volume joins a neighbour: a patch that is a sliver would
+ * lock, which patches are to prevent. */
 static const double too_small = 0.4;
-/* Least distance of two roots, in widths of a patch. */
+/* Least distance between two roots, in widths of a patch. */
 static const double apart = 0.875;
-/* Lengths and volumes that differ less than this, relatively, differ by rounding: a body whose coordinates
- * have fewer digits is refused. */
+/* Lengths and volumes that differ by less than this, relatively, count as equal. Bodies whose coordinates
+ * have fewer digits are refused. */
 static const double equal = 1e-6;
 
 /* The patches under construction. */
 typedef struct {
-    /* What they are made from. */
+    /* The input. */
     const pg_patch_source *s;
     /* Number of evaluation points, and of units (cells, or points). */
     size_t  n, units;
@@ -31,7 +31,7 @@ typedef struct {
     int     dim;
     /* Centre of each unit, m (units x dim). */
     double *centre;
-    /* Volume of the evaluation points in each unit, m^3; 0: it has none and is passed over (units). */
+    /* Volume of the evaluation points in each unit, m^3; 0: the unit has none and is ignored (units). */
     double *size;
     /* Group of each unit (units). */
     long   *group;
@@ -81,7 +81,7 @@ static pg_status measure_units (builder *b)
                 b->centre[u * dim + k] += x[v * dim + k] / (double) (last - first);
     }
     for (size_t k = 0; k < dim; k++) {
-        double end[2] = { -INFINITY, -INFINITY };          /* minus the lowest, the highest, of all ranks */
+        double end[2] = { -INFINITY, -INFINITY };      /* minus the lowest, and the highest, over all ranks */
         for (size_t u = 0; u < b->units; u++)
             if (b->size[u] > 0)
                 end[0] = fmax (end[0], -b->centre[u * dim + k]),
@@ -94,8 +94,8 @@ done:
 }
 
 /* ---- lattices ------------------------------------------------------------------------------------------ */
-/* Group of index i among 0 .. n - 1: about `across` indices in each group. Symmetric under reflection: a
- * middle index (n odd) needs a middle group, so that the number of groups is made odd then, by one more
+/* Group of index i among 0 .. n - 1, with about `across` indices in each group. Symmetric under reflection: a
+ * middle index (n odd) needs a middle group, so that an even number of groups is then made odd, by one more
  * while each still has two indices, else by one less. */
 static long group_of (long i, long n, long across)
 {
@@ -106,7 +106,7 @@ static long group_of (long i, long n, long across)
     return i <= mirrored ? at : groups - 1 - at;
 }
 
-/* Indices of unit u on the whole lattice: of its cell, or of the nearest vertex. */
+/* Indices of unit u on the lattice of the whole body: of its cell, or of the nearest vertex. */
 static void index_of (const builder *b, size_t u, long *at)
 {
     const pg_lattice *l = b->s->lattice;
@@ -117,7 +117,7 @@ static void index_of (const builder *b, size_t u, long *at)
                                 + shift + 1e-9);
 }
 
-/* Groups on a lattice, numbered with x fastest. The range of indices is that of units with a volume, on all
+/* Sets the groups on a lattice, numbered with x fastest. Indices range over the units with a volume on all
  * ranks. */
 static pg_status bin_units (builder *b)
 {
@@ -162,11 +162,11 @@ static double distance (const builder *b, size_t u, size_t v)
     return sqrt (s);
 }
 
-/* When a unit may become a root: its distance from the middle of the body, m; for those as far away, what
- * tells the nodes that it sees, whichever cells these are numbered by. */
+/* Sort key by which units become roots: distance from the middle of the body, m; among equal ones a
+ * fingerprint of the nodes in its families, which does not depend on how cells are numbered. */
 typedef struct { double away; uint64_t seen; size_t unit; } candidate;
 
-/* For qsort. */
+/* Order of two candidates, for qsort. */
 static int earlier (const void *a, const void *b)
 {
     const candidate *c = a, *d = b;
@@ -203,7 +203,7 @@ static void order_units (const builder *b, candidate *list)
 }
 
 /* Chooses roots: a unit becomes one unless a root is near. Every other unit then goes to the nearest root,
- * measured in local spacings; among equals to the first. near: units within reach of each. */
+ * measured in local spacings; of equally near ones to the first. near: units within reach of each unit. */
 static pg_status root_units (builder *b, const double *local, const pg_family *near)
 {
     pg_status status = PG_OK;
@@ -240,7 +240,7 @@ done:
     return status;
 }
 
-/* Groups of irregular points or of a mesh; local: the largest spacing of the points of each unit. */
+/* Forms groups of irregular points or of a mesh. local: the largest spacing of the points of each unit, m. */
 static pg_status group_by_roots (builder *b)
 {
     pg_status status = PG_OK;
@@ -270,7 +270,7 @@ static double complete (const builder *b, size_t p)
     return volume;
 }
 
-/* Volumes, centroids and complete volumes of the groups of points. */
+/* Computes volumes, centroids and complete volumes of the groups of points. */
 static pg_status measure_groups (builder *b)
 {
     pg_status status = PG_OK;
@@ -297,16 +297,18 @@ static int is_small (const builder *b, size_t c)
     return b->volume[c] < too_small * b->full[c] * (1 - equal);
 }
 
-/* Groups that are as near as each other, at most. */
+/* Most groups that are equally near. */
 enum { MOST_TIED = 16 };
-/* The groups that take the points of a group, each an equal share: itself, or those that it joins. */
+/* The groups that take the points of a group, each an equal share: the group itself, or those that it
+ * joins. */
 typedef struct { int n; size_t group[MOST_TIED]; } lodging;
 
-/* Context of `unfit`: groups of the same material other than `own`, without those already found. */
+/* Context of `unfit`: the materials of groups, the group that looks for another one, and those that it has
+ * found already. */
 typedef struct { const builder *b; const int *material; size_t own; const lodging *found; } choice;
 
-/* Refuses groups that are no candidates (a pg_refuse): found already, itself, of another material, too
- * small. */
+/* Refuses groups that are not to be joined (a pg_refuse): found already, the group itself, of another
+ * material, too small. */
 static int unfit (void *context, const double *place, size_t c)
 {
     const choice *h = context;
@@ -324,7 +326,8 @@ static double away (const builder *b, const double *x, const double *y)
     return sqrt (s);
 }
 
-/* The nearest groups that are large enough; itself where there is none. */
+/* Finds the nearest groups of the same material that are large enough; the group itself where there is
+ * none. */
 static void lodge (const builder *b, const pg_nearest *grid, const int *material, size_t c, lodging *out)
 {
     const double *x = b->middle + c * (size_t) b->dim;
@@ -341,7 +344,7 @@ static void lodge (const builder *b, const pg_nearest *grid, const int *material
     if (out->n == 0) out->group[out->n++] = c;
 }
 
-/* Where the points of each group go. */
+/* Decides to which groups the points of each group go. */
 static pg_status join_small (const builder *b, lodging *to)
 {
     pg_status status = PG_OK;
@@ -359,8 +362,7 @@ done:
     return status;
 }
 
-/* Renumbers the groups without gaps, in their order; groups of different materials become different
- * groups. */
+/* Renumbers the groups without gaps, in their order, and splits those of several materials. */
 static pg_status number (builder *b, size_t materials)
 {
     pg_status status = PG_OK;
@@ -379,7 +381,7 @@ done:
 }
 
 /* ---- result -------------------------------------------------------------------------------------------- */
-/* The nodes that the points of each patch see, ascending; f: those that each point sees. */
+/* Lists the nodes in the families f of the points of each patch, ascending. */
 static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
 {
     pg_status status = PG_OK;
@@ -406,8 +408,8 @@ done:
     return status;
 }
 
-/* Counts the patches, their entries and those of each point, from where the points of each group go; name:
- * the patch of each group. */
+/* Counts the patches, the entries of each, and those of each point. to: the groups that each group joins;
+ * name: the patch of each group. */
 static pg_status count (pg_patches *out, const builder *b, const lodging *to, size_t *name)
 {
     pg_status status = PG_OK;

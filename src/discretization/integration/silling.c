@@ -19,7 +19,7 @@
 /* Sums over the family of a point: A (3 x 3, m^5), q (m^5), sum of w (m^3) and of w xi (m^4). */
 typedef struct { double A[9], q, sum_w, sum_wxi[3]; } moments;
 
-/* Sums over live bonds (w = 0: dead), without the own node. */
+/* Sums over intact bonds (w = 0: broken), without the own node. */
 static void gather_moments (const pg_rows *rows, const pg_cloud *cloud, size_t p, moments *m)
 {
     int dim = rows->dim;
@@ -54,7 +54,8 @@ static void local (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t 
     *g = rows->dN + e * dim;
 }
 
-/* The term w_l delta_lm couples each neighbour with the own node only. */
+/* Adds the stabilisation's blocks (dim x dim) that couple local node a of point p with its nodes 0 .. m - 1
+ * (layout m x dim x dim); modulus in Pa, volume in m^3. */
 void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus,
                      double volume, double *blocks)
 {

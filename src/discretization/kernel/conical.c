@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * w = 1 - q, a cone. The derivative jumps at q = 0; the slope outward is given there. */
+ * w = 1 - q, a cone. The derivative jumps at q = 0, where dw is the one-sided slope, -1. */
 #include "entries.h"
 
 static void value (size_t n, const double *q, double *w, double *dw)

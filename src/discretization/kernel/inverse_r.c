@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * w = 1/q. A node closer than 1e-9 horizons is the point itself: its weight is 1e3 (that of q = 1e-3),
- * because an infinite one would leave nothing of its neighbours. NOSB skips the own node and never sees this
- * value. */
+ * because with an infinite one its neighbours would count nothing. NOSB skips the own node and never uses
+ * this value. */
 #include "entries.h"
 
 static const double itself = 1e-9, own_weight = 1e3;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Essential conditions of forces whose unknowns are the values of the points: prescribed unknowns are left
- * out, d = T q + g with T the selection of the others. */
+ * Essential conditions of forces whose unknowns are the values of the points: prescribed unknowns are
+ * eliminated, d = T q + g, where T selects the free ones. */
 #include "point_boundary.h"
 
 /* Is component k prescribed by the load? */
@@ -8,7 +8,8 @@ static int prescribes (const pg_load *load, int k) { return pg_load_prescribes (
 
 enum { FREE = -1, IDLE = -2 };
 
-/* In a plane of symmetry points turn about its normal alone, unless told otherwise. */
+/* Holds rotations in a plane of symmetry at 0 except those about its normal, unless a load prescribes
+ * them. */
 static void hold_rotations (const point_boundary *s, const pg_load *load, int *by)
 {
     int dim = s->dim;
@@ -19,8 +20,8 @@ static void hold_rotations (const point_boundary *s, const pg_load *load, int *b
         }
 }
 
-/* The entry of `boundary` that prescribes each unknown; FREE: none; IDLE: a rotation that nothing
- * resists, held at 0 so that K is regular. */
+/* by: number of the entry of `boundary` that prescribes each unknown; FREE: none; IDLE: a rotation without
+ * stiffness, held at 0 so that K is regular. */
 static void claim (const point_boundary *s, const unsigned char *idle, int *by)
 {
     const pg_problem *p = s->problem;
@@ -38,8 +39,8 @@ static void claim (const point_boundary *s, const unsigned char *idle, int *by)
         if (p->boundary.load[l].symmetry) hold_rotations (s, &p->boundary.load[l], by);
 }
 
-/* Supports ascending by unknown, and T, whose columns are the unknowns that remain: a selection, with one
- * 1 in each column. */
+/* Makes the list of supports, ascending by unknown, and T, whose columns are the free unknowns, with one 1 in
+ * each column. */
 pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle)
 {
     pg_status status = PG_OK;
@@ -81,8 +82,8 @@ done:
     return status;
 }
 
-/* What all supports prescribe at t, m (rotations over the unit of their unknowns), at out[k] or, with dof, at
- * the unknown of support k. Separable loads are a stored pattern times a factor of t, which all supports of
+/* What all supports prescribe at time t, m (rotations times s->length), at out[k] or, if dof is set, at
+ * out[unknown of support k]. Separable loads are a stored pattern times a factor of t, which all supports of
  * the load share; others are evaluated anew; an idle rotation is 0. */
 static void find_goals (const point_boundary *s, double t, int dof, double *out)
 {
@@ -106,11 +107,11 @@ void boundary_goals (const point_boundary *s, double t, double *out) { find_goal
 /* NULL: all unknowns are free. */
 const pg_sparse *boundary_basis (const point_boundary *s) { return s->nsupport ? &s->T : NULL; }
 
-/* d at prescribed unknowns; the others stay as they are. */
+/* Sets d at prescribed unknowns; the others stay as they are. */
 void boundary_impose (const point_boundary *s, double t, double *d) { find_goals (s, t, 1, d); }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* Supports first, then a list of the loads that are none. */
+/* Makes the supports first, then the loads that prescribe no displacement, then the springs. */
 pg_status boundary_create (point_boundary *s, const pg_problem *problem, int stride, double length,
                         const unsigned char *idle)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Loads of forces whose unknowns are the values of the points: sums of forces on points, computed once
- * where they are a pattern times a factor of t. */
+ * Loads of forces whose unknowns are the values of the points, as forces on points: computed once where they
+ * are a pattern times a factor of t. */
 #include "point_boundary.h"
 #include <math.h>
 #include <string.h>
 
-/* Forces on the points of a load, N (moments over the length of rotations): its pattern where it is one
+/* Computes the forces on the points of a load, N (moments over s->length): its pattern if it is a pattern
  * times a factor of t, else its values at t. A pressure has one component, along the normal. */
 static void evaluate (const point_boundary *s, boundary_load *l, double t)
 {
@@ -26,8 +26,8 @@ static void evaluate (const point_boundary *s, boundary_load *l, double t)
     l->time = t;
 }
 
-/* Shares of points. Where the load is a pattern times a factor of t the forces of the pattern replace the
- * shares for good: a step then costs one product a point. */
+/* Prepares a load: the shares of its points. If the load is a pattern times a factor of t, the forces of the
+ * pattern replace the shares for good: a step then costs one product a point. */
 pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load)
 {
     pg_status status = PG_OK;
@@ -44,8 +44,8 @@ done:
     return status;
 }
 
-/* The factor of the pattern at t; 1 where the forces themselves were evaluated at t, which happens once
- * per t. */
+/* Returns the factor of the pattern at t. Loads that are not a pattern times a factor are evaluated at t,
+ * once per t, and return 1. */
 double boundary_bring_to (const point_boundary *s, boundary_load *l, double t)
 {
     if (l->separates) return pg_load_factor (&s->problem->boundary.load[l->load], t);
@@ -67,8 +67,8 @@ void boundary_add (point_boundary *s, double t, double *P)
     }
 }
 
-/* P += tractions sigma n of a uniform stress (Voigt order, Pa) on every facet of a load, given to points
- * as that load gives its own force: what the patch test is loaded with. */
+/* P += tractions sigma n of a uniform stress (Voigt order, Pa) on every facet of a load, distributed to
+ * points as the force of the load itself is: the loading of the patch test. */
 pg_status boundary_surface (point_boundary *s, int load, const double *stress, double *P)
 {
     pg_status status = PG_OK;
@@ -86,9 +86,9 @@ done:
     return status;
 }
 
-/* The size that residuals are judged by, N: the root of the sum of squares of all loads, or of the forces
- * inside the body (their squares here: `inside`) if that is larger. A point under several loads counts once
- * for each. Over all ranks that share the body. */
+/* Reference for residuals, N: the root of the sum of squares of all loads, or, if larger, of the internal
+ * forces (inside: sum of their squares on this rank, N^2). A point under several loads counts once for each.
+ * Summed over all ranks that share the body. */
 double boundary_reference (point_boundary *s, double t, double inside)
 {
     double sum[2] = { inside, 0 };

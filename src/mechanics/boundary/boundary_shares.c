@@ -8,11 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* index: of each point, -1: not yet */
+/* A load while its points are collected; index: position of each point of the cloud in out->point, -1: not
+ * there yet */
 typedef struct { boundary_load *out; size_t cap, cap_point; int *index; } gathering;
 
-/* A share of a place for one point. Points are collected once each in the order in which they come;
- * boundary_shares sorts them when all are there. */
+/* Adds a share of a quadrature point of the load for one point. Points are collected once each in the order
+ * in which they come; boundary_shares sorts them when all are there. */
 static pg_status add_part (gathering *g, int point, boundary_share part)
 {
     pg_status status = PG_OK;
@@ -23,7 +24,7 @@ static pg_status add_part (gathering *g, int point, boundary_share part)
         g->index[point] = (int) l->npoint;
         l->point[l->npoint++] = point;
     }
-    part.at = (size_t) point;                          /* the point itself until all are there */
+    part.at = (size_t) point;                     /* number of the point itself until boundary_shares sorts */
     l->part[l->npart++] = part;
 done:
     return status;
@@ -32,8 +33,7 @@ done:
 /* ---- facets -------------------------------------------------------------------------------------------- */
 enum { MOST_TIES = 16 };
 
-/* Points as near to a facet's centre as the nearest one, to a millionth of the spacing; others are refused
- * until only they are left. */
+/* The points found so far for a facet, which pg_nearest_find is to skip. */
 typedef struct { const int *found; size_t n; } known;
 
 /* Refuses points that have been found already (pg_refuse). */
@@ -78,8 +78,8 @@ typedef struct {
     int *columns;                                      /* number of columns that hold each point (n) */
 } columns;
 
-/* Is point j below the facet, not deeper than `depth` (m), and within half a step of its middle along
- * every axis? The column of a facet is as wide as a cell, so that each point of a lattice lies in one
+/* Is point j in the column below the facet: not deeper than `depth` (m), and within half a lattice step of
+ * the column's axis? The column of a facet is as wide as a cell, so that each point of a lattice lies in one
  * column, or on the border of two. */
 static int is_below (const point_boundary *s, size_t facet, int j, double depth)
 {
@@ -95,9 +95,9 @@ static int is_below (const point_boundary *s, size_t facet, int j, double depth)
     return 1;
 }
 
-/* The force at one quadrature point of a facet, to the points of its column by their volumes; *found 0:
- * nothing is there. A point that lies in two columns belongs to each by half its volume, and no force is
- * counted twice. */
+/* Distributes the force at one quadrature point of a facet to the points of its column by their volumes;
+ * *found 0: there are none. A point that lies in two columns belongs to each with half its volume, so that no
+ * force is counted twice. */
 static pg_status column_parts (gathering *g, const point_boundary *s, const columns *c, int facet,
                                boundary_share part,
                                int *found)
@@ -129,9 +129,9 @@ static void clear_columns (columns *c)
     pg_free (c->below), pg_free (c->columns);
 }
 
-/* Points within the depth below each facet of a load's set, and in how many columns each of them lies.
- * They are looked for around the middle of each column; in graded clouds the reach grows with the finest
- * spacing, by which families are scaled. */
+/* Finds the points within the depth below each facet of a load's set, and the number of columns that each of
+ * them lies in. The search is around the middle of each column; in graded clouds its radius is divided by the
+ * finest relative spacing, since families scale theirs by it. */
 static pg_status find_columns (columns *out, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -161,9 +161,9 @@ done:
     return status;
 }
 
-/* Shares of points in every quadrature place of the facets (two Gauss points a direction, so that
- * tractions may vary): those of the column below where the load has a depth and finds points, else those
- * nearest to the facet's centre. */
+/* Distributes the force at every quadrature point of the facets (two Gauss points a direction, so that
+ * tractions may vary): to the column below where the load has a depth and there are points, else to the
+ * points nearest to the facet's centre. */
 static pg_status facet_parts (gathering *g, point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -197,7 +197,8 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* A total force has equal shares, in 1; a force per volume has shares by volume, m^3. */
+/* Shares of loads that act on points: a total force has equal shares (1), a force per volume shares by volume
+ * (m^3). */
 static pg_status point_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -216,8 +217,8 @@ done:
     return status;
 }
 
-/* All shares of a load, by what it acts on, with its points ascending: the order of a sum must not depend
- * on the order of facets. */
+/* Computes all shares of a load, according to what it acts on, and sorts its points: the order of a sum must
+ * not depend on the order of facets. */
 pg_status boundary_shares (boundary_load *out, point_boundary *s, int load)
 {
     pg_status status = PG_OK;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Springs of `boundary`, of forces whose unknowns are the values of the points: each point of the set has its
- * share of the stiffness. */
+ * Springs of `boundary`, for forces whose unknowns are the values of the points: each point of the set has
+ * its share of the stiffness. */
 #include "point_boundary.h"
 
-/* A list of springs, and their stiffness by unknowns, for K. */
+/* Makes the list of springs, and their stiffness at every unknown (hold), for K. */
 pg_status boundary_make_springs (point_boundary *s)
 {
     pg_status status = PG_OK;
@@ -29,7 +29,7 @@ done:
     return status;
 }
 
-/* Where the other end of a spring is, m. */
+/* Prescribed displacement of the far end of a spring, m. */
 double boundary_spring_goal (const point_boundary *s, const boundary_spring *q, double t)
 {
     const pg_load *load = &s->problem->boundary.load[q->load];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The largest eigenfrequency from above: in closed form where a force has one, else by Gershgorin. */
+ * An upper bound of the largest eigenfrequency: in closed form where a force has one, else by Gershgorin. */
 #include "perigal/force.h"
 #include <math.h>
 
-/* Explicit steps are stable up to 2 over this frequency. */
+/* omega: the bound, rad/s; NAN: the force has none. Explicit time steps are stable up to 2 / omega. */
 pg_status pg_force_bound (const pg_force_type *force, void *self, const pg_cloud *cloud, size_t ndof,
                           const double *mass, double *workspace, double *omega, const char **from)
 {

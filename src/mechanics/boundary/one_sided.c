@@ -1,35 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Displacements at places on faces, as sums over nodal unknowns, by shape functions that see one side only:
- * from a hair's breadth beside the face, nodes behind a crack are not seen.
- * Jump across a crack: the functions of one side less those of the other. They have a radius of their own:
- * nodes beside a crack that passes close to their row see too little within that of the body for a linear
- * basis (they would lie on one line), and any functions that reproduce linear fields serve. Where a side
- * sees too little even so, wider supports are tried, as of places in cut cells (pg_rows_widen): never
- * across a crack, and never across a slot or gap.
+ * Displacements at positions on faces, as sums over nodal unknowns, by shape functions of the nodes on one
+ * side only: nodes that a crack hides from an eye slightly beside the face are left out.
+ * Jump across a crack: the functions of one side minus those of the other. They have a radius of their own:
+ * within that of the body nodes beside a crack that passes close to their row have too few neighbours for a
+ * linear basis (all on one line), and any functions that reproduce linear fields serve. Where a side still
+ * has too few, wider supports are tried, as in cut cells (pg_rows_widen): never across a crack, and never
+ * across a slot or gap.
  * Trace on the surface of the body: the functions by which a traction acts there, so that forces at these
- * places are tractions like any other. */
+ * positions are tractions like any other. */
 #include "one_sided.h"
 #include <string.h>
 
-/* How far beside the face the place looks from, spacings: beyond what counts as on it (PG_NO_LENGTH). */
+/* Distance of the eye from the face, in spacings: beyond what counts as on the face (PG_NO_LENGTH). */
 static const double BESIDE = 5 * PG_NO_LENGTH;
 
 typedef struct {
     const pg_problem *p;
     const pg_cracks *cracks;
     const double *x, *normal;
-    double side;                                       /* 1: that the normal shows to; -1 */
-    int    flat;                                       /* 1: places beside all cracks are on planes */
+    double side;                                /* 1: the side that the normal points to; -1: the other one */
+    int    flat;   /* 1: nodes are told apart by the plane of the position where no crack passes through it */
     const pg_rows *rows;
     unsigned char *alive;
 } looking;
 
-/* What is wanted of the two sides, 1 and -1: the factor of their functions (0: not looked at), the least good
- * basis that still counts, and `flat` of looking. surface: places are on the surface of the body. */
+/* What is wanted of the two sides, 1 and -1: the factor of their functions (0: not computed), the worst grade
+ * of basis that is accepted, and `flat` of looking. surface: positions are on the surface of the body. */
 typedef struct { double factor[2]; int worst, flat, surface; } sides;
 
-/* Is that node seen from this side of place q? On faces that bonds left which broke one by one nodes are told
- * apart by the plane of the place. */
+/* Is the node on this side of position q, with no crack or slot between? On faces left by bonds that broke
+ * one by one (flat) sides are told apart by the plane of the position. */
 static int sees (void *context, size_t q, int node)
 {
     const looking *l = context;
@@ -55,8 +55,8 @@ static void look (void *context, size_t first, size_t last, int thread)
         for (size_t e = f->start[q]; e < f->start[q + 1]; e++) l->alive[e] = sees (l, q, f->node[e]) != 0;
 }
 
-/* The functions of one side, 0 for nodes that it does not see; places that see too little have wider supports
- * (pg_rows_widen). */
+/* Computes the shape functions of one side, 0 for nodes that are hidden from it; positions with too few
+ * neighbours get wider supports (pg_rows_widen). */
 static pg_status side_of (pg_rows *rows, const pg_approx *a, looking *l, size_t n, int surface)
 {
     pg_status status = PG_OK;
@@ -80,7 +80,8 @@ done:
     return status;
 }
 
-/* Adds the functions of one side of place q, times a factor, to the last row of the list. */
+/* Adds the functions of one side at position q, times a factor, to row q of the list, which is the last
+ * one. */
 static pg_status add_place (pg_jump_rows *out, size_t cap[2], const pg_rows *rows, size_t q, double factor)
 {
     pg_status status = PG_OK;
@@ -126,7 +127,7 @@ static pg_status find (const pg_problem *p, const pg_approx *a, const pg_state *
             if (wanted->factor[side] != 0)
                 PG_TRY (add_place (out, cap, &rows[side], q, wanted->factor[side]));
     }
-    /* without any entry the lists are there all the same */
+    /* lists without any entry are allocated all the same */
     PG_GROW (out->node, cap[0], out->start[n] + 1);
     PG_GROW (out->value, cap[1], out->start[n] + 1);
 done:
@@ -153,7 +154,7 @@ pg_status trace_rows (const pg_problem *p, const pg_approx *by, const pg_state *
     return find (p, &a, state, n, x, normal, &inner, out);
 }
 
-/* May be called on one that was never filled. */
+/* Frees the lists; may be called for ones that were never filled. */
 void pg_jump_rows_clear (pg_jump_rows *rows)
 {
     pg_free (rows->start), pg_free (rows->node), pg_free (rows->value);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the boundary does: pairs of force and displacement whose product is work, reactions of supports, of
- * forces whose unknowns are the values of the points. */
+ * Work of the boundary: pairs of force and displacement whose product is work, and reactions of supports,
+ * for forces whose unknowns are the values of the points. */
 #include "point_boundary.h"
 #include <string.h>
 
-/* The force on one unknown of a point, and its moment. Rotations have no arm: theirs are moments already. */
+/* Adds the force on one unknown of a point, and its moment about the origin, to the reactions of a load. For
+ * rotations the force is a moment already and has no lever arm. */
 static void add_reaction (const point_boundary *s, double *reaction, int load, int component, size_t point,
                           double force)
 {
@@ -18,8 +19,8 @@ static void add_reaction (const point_boundary *s, double *reaction, int load, i
                             reaction + 3 * (p->boundary.nload + (size_t) load));
 }
 
-/* Arrays are sized on the first call; pairs of supports come first, those of loads follow, those of
- * springs come last. Forces on ghosts count where they are owned. */
+/* Allocates the arrays on the first call; pairs of supports come first, then those of loads, then those of
+ * springs. Forces on ghost points count on the rank that owns these. */
 pg_status boundary_work_balance (point_boundary *s, double t, const double *d, const double *residual,
                               pg_work_balance *out)
 {
@@ -63,7 +64,7 @@ done:
     return status;
 }
 
-/* May be called on one that was never filled. */
+/* Frees the arrays; may be called for ones that were never filled. */
 void pg_work_balance_clear (pg_work_balance *work_balance)
 {
     pg_free (work_balance->force), pg_free (work_balance->displacement), pg_free (work_balance->reaction);

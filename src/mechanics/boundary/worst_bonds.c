@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The worst bonds by the utilisation of all of them. Ranks judge the bonds that they own, and agree on the
- * largest. */
+ * The bonds with the largest utilisation, where that of all bonds is known. Ranks judge the bonds that they
+ * own, and agree on the largest value. */
 #include "perigal/force.h"
 #include "perigal/ranks.h"
 #include <math.h>

@@ -1,35 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Finite elements on the nodes of the Galerkin form, whose energies are about those of K (linalg.h,
- * pg_elements): they precondition the iterations.
+ * pg_elements): the preconditioner of iterative solvers.
  *
- * A cell whose evaluation points see all its corners is an element: isoparametric, of the mesh's own kind,
- * or the bilinear or trilinear one of a lattice, with its nodes at the nodes' real places. Where a crack
- * separates corners, where the surface cuts the cell, or where there is no cell at all, each evaluation point
- * p becomes an element of its own over the m nearest nodes that it still sees. With c their mean place and
- * h the local spacing, the gradient is that of the best linear field (least squares),
+ * A cell whose evaluation points have intact bonds to all its corners is an element: isoparametric, of the
+ * mesh's own kind, or the bilinear or trilinear one of a lattice, with its nodes at the nodes' actual
+ * positions. Where a crack separates corners, where the surface cuts the cell, or where there is no cell at
+ * all, each evaluation point p becomes an element of its own over the m nearest nodes to which its bonds are
+ * intact. With c their mean position and h the local spacing, the gradient is that of the best linear field
+ * (least squares),
  *
- *     q_a = A^-1 (x_a - c),   A = sum_a (x_a - c)(x_a - c)' + 0.02 h^2 I,   du/dx = sum_a u_a q_a',
+ *    q_a = A^-1 (x_a - c),   A = sum_a (x_a - c)(x_a - c)' + 0.02 h^2 I,   du/dx = sum_a u_a q_a',
  *
- * and what differs from that field, R u with R_ab = delta_ab - 1/m - (x_a - c) . q_b, has the stiffness
+ * and the deviation from that field, R u with R_ab = delta_ab - 1/m - (x_a - c) . q_b, has the stiffness
  *
- *     K_p = w (B' D B + 8 mu / (h^2 m) R' R (x) I),
+ *    K_p = w (B' D B + 8 mu / (h^2 m) R' R (x) I),
  *
- * so that every node that anything sees has a stiffness: elements that were only left out where they are cut
- * would leave nodes beside a crack without any. Supports: Nitsche's factor k holds the displacement at a
- * facet point, sum_a phi_a u_a of the nodes near by, with the springs k phi_a phi_b; penalties are springs at
- * their node. */
+ * so that every node with an intact bond has a stiffness: if cut elements were merely left out, nodes beside
+ * a crack would have none. Supports: Nitsche's factor k holds the displacement at a facet point, sum_a phi_a
+ * u_a of nearby nodes, with the springs k phi_a phi_b; penalties are springs at their node. */
 #include "galerkin_elements.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Strength of what resists deviations from a linear field, in units of mu / (h^2 m): also where nodes are
- * evaluation points without stabilisation, whose K hardly sees what alternates from node to node; and the
- * least spread of the nodes of a point, in units of h^2. */
+/* deviation: stiffness of deviations from a linear field, in units of mu / (h^2 m); free_deviation: the same
+ * where nodes are evaluation points without stabilisation, whose K hardly resists displacements that
+ * alternate from node to node. least_spread: least spread of the nodes of a point, in units of h^2. */
 static const double deviation = 8, free_deviation = 2, least_spread = 0.02;
 /* Least spread of the nodes of a tetrahedron, in units of the h^2 of its own nodes. */
 static const double soft_tetrahedron = 0.4;
-/* Weights at a facet point end there: this many times the squared distance of the farthest node. */
+/* The weights of a facet point's nodes vanish at this many times the squared distance of the farthest
+ * node. */
 static const double beyond = 1.2;
 
 /* ---- their matrices ------------------------------------------------------------------------------------ */
@@ -62,14 +63,15 @@ static void add_strain (const galerkin *g, size_t m, const double *q, const doub
     }
 }
 
-/* The lower triangle is that above it, to the bit. */
+/* Copies the upper triangle to the lower one, bit by bit. */
 static void mirror (size_t width, double *K)
 {
     for (size_t i = 0; i < width; i++)
         for (size_t j = 0; j < i; j++) K[i * width + j] = K[j * width + i];
 }
 
-/* Gradients of the shape functions of an element at xi, 1/m (nodes x dim); returns its size factor. */
+/* Gradients q of the shape functions of an element at xi, 1/m (nodes x dim); returns the determinant of the
+ * Jacobian. */
 static double gradients (const galerkin *g, pg_element kind, const int *node, const double *xi, double *q)
 {
     size_t dim = (size_t) g->dim, m = (size_t) pg_element_types[kind].nodes;
@@ -115,7 +117,7 @@ static int same_as_last (element_list *b, int kind, const pg_material *material,
     return same;
 }
 
-/* The matrix of the last cell times a share. */
+/* Returns the matrix of the last cell times a share. */
 static const double *scaled (element_list *b, size_t width, double share)
 {
     if (share == 1) return b->last;
@@ -123,15 +125,16 @@ static const double *scaled (element_list *b, size_t width, double share)
     return b->K;
 }
 
-/* lambda of point p where the dilatation is projected; else 0: the material has it. */
+/* lambda of point p, Pa, where the dilatation is projected; else 0, since D of the material contains it. */
 static double projected_lambda (const element_list *b, size_t p)
 {
     return b->g->dilatation ? b->g->problem->form.patches->lambda[b->g->material[b->set][p]] : 0;
 }
 
-/* Where the dilatation is projected K has it as means over patches, which the elements cannot follow: with
- * all of lambda on the mean of each element they lock (1854 iterations at a Poisson's ratio of 0.49). With at
- * most mu of it, mu V b b', b the mean of the gradients, iterations are fewest (140; without 153). */
+/* Adds the volumetric stiffness where the dilatation is projected. K has it as means over patches, which the
+ * elements cannot follow: with all of lambda on the mean of each element they lock (1854 iterations at a
+ * Poisson's ratio of 0.49). With at most mu of it, mu V b b', b the mean of the gradients, iterations are
+ * fewest (140; without 153). */
 static void add_dilatation (element_list *b, size_t p, size_t width, int n, const double *xi,
                             const double *weight, int kind, const int *node)
 {
@@ -148,8 +151,8 @@ static void add_dilatation (element_list *b, size_t p, size_t width, int n, cons
         for (size_t j = i; j < width; j++) b->last[i * width + j] += lambda / volume * mean[i] * mean[j];
 }
 
-/* Stiffness of a whole cell, of the material of point p. Nodes that were moved so far that the element turns
- * inside out somewhere count with the size of that place. */
+/* Stiffness of a whole cell, of the material of point p. Where nodes were moved so far that the Jacobian
+ * determinant is negative, its absolute value counts. */
 static const double *cell_matrix (element_list *b, double share, int kind, size_t m, const int *node,
                                   size_t p)
 {
@@ -169,7 +172,8 @@ static const double *cell_matrix (element_list *b, double share, int kind, size_
     return scaled (b, width, share);
 }
 
-/* Nodes without stabilisation see less of what alternates. */
+/* Stiffness of deviations: lower for nodes without stabilisation, whose K hardly resists alternating
+ * displacements. */
 static double resistance (const element_list *b)
 {
     return b->set == PG_NODES && !(b->g->options->silling > 0) ? free_deviation : deviation;
@@ -182,7 +186,7 @@ static double product (size_t n, const double *a, const double *b)
     return s;
 }
 
-/* Displacements z (m x dim) of m nodes that turn about axis r through c. */
+/* z (m x dim): displacements of m nodes in a unit rotation about axis r through c. */
 static void turn (const galerkin *g, size_t m, const int *node, const double *c, size_t r, double *z)
 {
     size_t dim = (size_t) g->dim, i = dim == 3 ? (r + 1) % 3 : 0, j = dim == 3 ? (r + 2) % 3 : 1;
@@ -193,7 +197,7 @@ static void turn (const galerkin *g, size_t m, const int *node, const double *c,
     }
 }
 
-/* K without the rotations about c: P K P, where P takes them off, one after the other. */
+/* Removes the rotations about c from K: P K P, where P projects them off, one after the other. */
 static void take_off_rotations (const galerkin *g, size_t m, const int *node, const double *c, double *K)
 {
     size_t width = m * (size_t) g->dim, axes = g->dim == 3 ? 3 : g->dim == 2;
@@ -218,8 +222,8 @@ static void take_off_rotations (const galerkin *g, size_t m, const int *node, co
     }
 }
 
-/* The best linear field of m nodes: their mean place c and q (m x dim), h2: squared spacing that the least
- * spread, in units of `soft`, is measured by; 0: becomes that of the nodes themselves. */
+/* The best linear field of m nodes: mean position c and gradients q (m x dim). The least spread added to A is
+ * soft * h2; h2: squared spacing, m^2; 0: is set to that of the nodes themselves. */
 static void fit_gradient (const galerkin *g, size_t m, const int *node, double soft, double *h2, double *c,
                           double *q)
 {
@@ -233,7 +237,7 @@ static void fit_gradient (const galerkin *g, size_t m, const int *node, double s
             for (size_t l = 0; l < dim; l++)
                 A[k * dim + l] += (place (g, node[a])[k] - c[k]) * (place (g, node[a])[l] - c[l]);
     for (size_t k = 0; k < dim; k++) spread += A[k * dim + k];
-    /* of a regular simplex the spread along each axis is half the squared edge */
+    /* in a regular simplex the spread along each axis is half the squared edge */
     if (!(*h2 > 0)) *h2 = 2 * spread / (double) dim;
     for (size_t k = 0; k < dim; k++) A[k * dim + k] += soft * *h2;
     pg_dense_cholesky ((int) dim, A, 0);
@@ -243,7 +247,7 @@ static void fit_gradient (const galerkin *g, size_t m, const int *node, double s
     }
 }
 
-/* K += stiffness R'R (x) I of what differs from the linear field, blocks on and above the diagonal. */
+/* K += stiffness R'R (x) I of the deviation from the linear field, blocks on and above the diagonal. */
 static void add_rest (const galerkin *g, size_t m, const int *node, const double *c, const double *q,
                       double stiffness, double *K)
 {
@@ -278,11 +282,11 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
     return b->K;
 }
 
-/* Stiffness of a tetrahedron of the material of point p. The exact gradient of flat ones is far stiffer than
- * anything that shape functions of a wide support make of the same displacements: it is that of a field
- * fitted with a large least spread, and what differs from it resists less than it would, but for rotations,
- * which have no energy. Supports that are stretched as the elements are see steep gradients across them:
- * theirs is the exact one. */
+/* Stiffness of a tetrahedron of the material of point p. The exact gradient of flat tetrahedra is far stiffer
+ * than shape functions of a wide support are for the same displacements. So the gradient is that of a field
+ * fitted with a large least spread, and deviations from it resist, but for rotations, which have no energy.
+ * Anisotropic supports, stretched as the elements are, resolve steep gradients across them: there the exact
+ * gradient is used. */
 static const double *tetrahedron_matrix (element_list *b, size_t p, const int *node)
 {
     const galerkin *g = b->g;
@@ -305,10 +309,9 @@ static const double *tetrahedron_matrix (element_list *b, size_t p, const int *n
     return b->K;
 }
 
-/* phi (m): the displacement at facet point p as a sum over m nodes: that of the linear field which fits
- * theirs best, the nearer the more (a moving least squares fit). With weights w_a = (1 - d_a^2 / R^2)^2, W
- * their sum, c the weighted mean of the places and A the weighted spread about it,
- *     phi_a = w_a (1 / W + (x - c) . A^-1 (x_a - c)). */
+/* phi (m): weights of m nodes for the displacement at facet point p, by a moving least squares fit of a
+ * linear field. With w_a = (1 - d_a^2 / R^2)^2, W their sum, c the weighted mean of the positions and A the
+ * weighted spread about it, phi_a = w_a (1 / W + (x - c) . A^-1 (x_a - c)). */
 static void facet_shape (const galerkin *g, size_t p, size_t m, const int *node, double *phi)
 {
     size_t dim = (size_t) g->dim;
@@ -338,8 +341,8 @@ static void facet_shape (const galerkin *g, size_t p, size_t m, const int *node,
     }
 }
 
-/* Springs of the constraints at facet point p. Where all nodes stand behind the facet, the material between
- * them, as deep as the least deep of them, gives way as well: springs in series. */
+/* Matrix of the springs that constrain facet point p. Where all nodes lie behind the facet, the material
+ * between it and the nearest of them (in depth) yields as well: springs in series. */
 static const double *spring_matrix (element_list *b, size_t p, size_t m, const int *node)
 {
     const galerkin *g = b->g;
@@ -364,7 +367,7 @@ static const double *spring_matrix (element_list *b, size_t p, size_t m, const i
     return b->K;
 }
 
-/* An evaluation point of each cell, for its material; of a box its first node. */
+/* An evaluation point of each cell, for its material; of a box its first node. *at: the point found last. */
 static size_t point_of (const element_list *b, size_t cell, size_t *at)
 {
     const pg_rows *r = &b->g->rows[b->g->bulk];
@@ -373,7 +376,7 @@ static size_t point_of (const element_list *b, size_t cell, size_t *at)
     return *at;
 }
 
-/* Matrix of element k; `at` goes along with cells, which are in ascending order. */
+/* Matrix of element k; *at advances with the cells, which are in ascending order. */
 static const double *matrix_of (element_list *b, size_t k, size_t *at)
 {
     size_t m = b->list.start[k + 1] - b->list.start[k];
@@ -384,7 +387,7 @@ static const double *matrix_of (element_list *b, size_t k, size_t *at)
     return cell_matrix (b, b->weight[k], b->cell[k], m, node, point_of (b, b->of[k], at));
 }
 
-/* Sums them up. */
+/* Sums up the matrices of all elements in Q. */
 static pg_status add_elements (element_list *b, pg_block_matrix *Q)
 {
     pg_status status = PG_OK;
@@ -403,14 +406,14 @@ done:
 }
 
 /* ---- supports ------------------------------------------------------------------------------------------ */
-/* A penalty so much above E / h that springs of the elements would not do: the polynomial is not exact, and
- * what it leaves of the displacement of the node would be multiplied by it. */
+/* Is the penalty so much above E / h that springs of the elements would not do? The polynomial in N is not
+ * exact, and its error in the displacement of the node would be multiplied by the penalty. */
 int elements_stiff (const galerkin *g, const constraint *q)
 {
     return g->problem->boundary.load[q->load].penalty > 30;
 }
 
-/* Columns of W: the shape functions at the nodes that stiff penalties hold. */
+/* W: for each stiff penalty a column with the shape functions at its node. */
 static pg_status list_stiff (const galerkin *g, pg_elements *out)
 {
     pg_status status = PG_OK;
@@ -440,7 +443,7 @@ done:
     return status;
 }
 
-/* Springs of nodes under a penalty. */
+/* Adds the springs of nodes under a penalty that is not stiff. */
 static void add_penalties (const galerkin *g, pg_block_matrix *Q)
 {
     size_t dim = (size_t) g->dim;
@@ -452,9 +455,9 @@ static void add_penalties (const galerkin *g, pg_block_matrix *Q)
     }
 }
 
-/* Horizon of a point in units of the spacing of a lattice as dense as the points stand: of a mesh, whose
- * spacing is the mean length of its edges, it is more than in units of that. In the lower quartile, as points
- * on the surface have a part of a volume only. */
+/* Horizon in units of the spacing that a lattice with the same density of points would have: on meshes, whose
+ * spacing is the mean length of edges, more than in units of that. The lower quartile over all points, as
+ * points on the surface have only part of a volume. */
 static pg_status width_of_supports (const pg_problem *p, double *width)
 {
     pg_status status = PG_OK;
@@ -472,10 +475,10 @@ done:
     return status;
 }
 
-/* The wider the support, the nearer to 0 N comes for patterns that alternate from node to node, and the more
- * terms the polynomial needs; a term costs a twentieth of K x or less. Fewest iterations of those tried on
- * cubes of 5 000 points. The last one: of tetrahedra, which at a horizon of 2 edges see as many neighbours as
- * points of a lattice at 2.4 spacings. */
+/* Chooses the polynomial in N. The wider the support, the nearer to 0 N is for displacements that alternate
+ * from node to node, and the more terms the polynomial needs; a term costs a twentieth of K x or less. The
+ * choices gave the fewest iterations on cubes of 5 000 points. The last one: for tetrahedra, which at a
+ * horizon of 2 edges have as many neighbours as points of a lattice at 2.4 spacings. */
 static pg_status choose_polynomial (const pg_problem *p, pg_elements *out)
 {
     static const struct { int order; double wide; int terms; double low, floor; } choice[] = {
@@ -503,7 +506,7 @@ static void element_list_clear (element_list *b)
     pg_free (b->K), pg_free (b->last);
 }
 
-/* Of the bonds that live at the last refresh. */
+/* Makes the elements for the bonds that were intact at the last refresh. */
 pg_status galerkin_elements (void *self, pg_elements *out)
 {
     pg_status status = PG_OK;

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which cells and points become finite elements of the preconditioner, and over which nodes: whole cells
- * where their points see all corners, boxes between points at the centres of the cells, else elements around
+ * Chooses the finite elements of the preconditioner and their nodes: whole cells where their points have
+ * intact bonds to all corners, boxes between points at the centres of the cells, else elements around
  * evaluation points. */
 #include "galerkin_elements.h"
 #include <math.h>
 #include <string.h>
 
-/* Nodes of an element around an evaluation point, and of a supported facet point: within this many spacings;
- * by `wider` farther until there are enough. */
+/* Radius within which nodes form an element around an evaluation point (near_by) or a supported facet point
+ * (near_facet), in spacings; it grows in steps of `wider` until there are enough nodes. */
 static const double near_by = 1.45, near_facet = 1.2, wider = 0.3;
 
-/* Boxes by dimension, and the order of their corners. */
+/* Kinds of boxes by dimension, and the order of their corners. */
 static const pg_element box_kind[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
 static const unsigned char box_corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
                                                 { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 
 /* ---- which nodes --------------------------------------------------------------------------------------- */
-/* Where node j stands in the family of point p; SIZE_MAX: nowhere. */
+/* Entry of node j in the family of point p; SIZE_MAX: it is not there. */
 static size_t entry_of (const pg_rows *r, size_t p, int j)
 {
     size_t low = r->family.start[p], high = r->family.start[p + 1];
@@ -28,8 +28,8 @@ static size_t entry_of (const pg_rows *r, size_t p, int j)
     return low < r->family.start[p + 1] && r->family.node[low] == j ? low : SIZE_MAX;
 }
 
-/* Is entry e of point p a broken bond? Beyond the support of a node and on its edge there is no influence
- * either. */
+/* Is entry e of point p a broken bond? Bonds without influence at or beyond the edge of the node's support
+ * are not broken. */
 int elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
 {
     int j = r->family.node[e];
@@ -41,7 +41,7 @@ int elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
            && pg_cloud_length2 (c, (size_t) j, bond) < support * support;
 }
 
-/* The node nearest to x among those that point p sees, *d2 its squared distance. */
+/* The node nearest to x in the family of point p; *d2: its squared distance, m^2. */
 int elements_nearest (const galerkin *g, const pg_rows *r, size_t p, const double *x, double *d2)
 {
     int best = -1;
@@ -53,7 +53,7 @@ int elements_nearest (const galerkin *g, const pg_rows *r, size_t p, const doubl
     return best;
 }
 
-/* The evaluation point first .. last - 1 that is nearest to x. */
+/* The one of the evaluation points first .. last - 1 that is nearest to x. */
 static size_t nearest_point (const galerkin *g, const pg_rows *r, size_t first, size_t last, const double *x)
 {
     size_t best = first;
@@ -65,8 +65,8 @@ static size_t nearest_point (const galerkin *g, const pg_rows *r, size_t first, 
     return best;
 }
 
-/* The nodes at the places of the first m nodes of a cell; 0: some have none of their own within 0.6
- * spacings. points first .. last - 1 are those of the cell. */
+/* Finds the nodes at the positions of the first m nodes of a cell; 0: some position has no node of its own
+ * within 0.6 spacings. The points first .. last - 1 are those of the cell. */
 static int find_nodes (const galerkin *g, size_t cell, size_t m, size_t first, size_t last, int *node)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -83,7 +83,7 @@ static int find_nodes (const galerkin *g, size_t cell, size_t m, size_t first, s
     return 1;
 }
 
-/* Has a point of the cell lost sight of one of its m nodes? */
+/* Has one of the points first .. last - 1 lost its bond to one of the m nodes? */
 static int separated (const galerkin *g, size_t m, const int *node, size_t first, size_t last)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -107,8 +107,8 @@ static pg_element straight (pg_element kind)
     return kind;
 }
 
-/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it is none. A cell
- * that the surface cuts has the corners of the box. */
+/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it cannot be one. A
+ * cell that the surface cuts has the corners of the whole box. */
 static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last, int *node)
 {
     int kind = g->problem->cells.kind[cell];
@@ -121,7 +121,8 @@ static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last
     return separated (g, (size_t) pg_element_types[kind].nodes, node, first, last) ? NO_CELL : kind;
 }
 
-/* Nodes that point p of a set still sees within so many spacings, itself where it is a node. */
+/* Nodes within so many spacings of point p to which its bonds are intact, including p itself where it is a
+ * node. Returns their number. */
 static size_t near_nodes (const galerkin *g, int set, size_t p, double within, int *node)
 {
     const pg_rows *r = &g->rows[set];
@@ -160,7 +161,7 @@ static pg_status append (element_list *b, size_t of, int kind, double weight, si
     b->of[l->n] = of, b->cell[l->n] = kind, b->weight[l->n] = weight;
     l->start[l->n + 1] = l->start[l->n] + m;
     l->n++;
-    /* no two nodes of it are further apart than twice the farthest from the first */
+    /* reach: the largest squared distance of two nodes of an element */
     for (size_t k = 1; k < m; k++)
         for (size_t i = 0; i < k; i++)
             b->reach = fmax (b->reach,
@@ -175,7 +176,7 @@ static pg_status append_point (element_list *b, size_t p, double weight)
     return append (b, p, NO_CELL, weight, near_nodes (b->g, b->set, p, near_by, node), node);
 }
 
-/* Share of a cell that the surface cuts which lies in the body. */
+/* Share of a cell's volume that lies in the body, if the surface cuts it; else 1. */
 static double share_of (const galerkin *g, size_t cell)
 {
     const pg_cells *c = &g->problem->cells;
@@ -185,8 +186,8 @@ static double share_of (const galerkin *g, size_t cell)
     return fmin (1, c->volume[cell] / whole);
 }
 
-/* A tetrahedron with nodes in the middle of its edges as eight small ones: four at the corners, four about
- * the shortest line that joins the middles of opposite edges. */
+/* Appends a tetrahedron with mid-edge nodes as eight small ones: four at the corners, four about the shortest
+ * line that joins the middles of opposite edges. */
 static pg_status append_halved (element_list *b, size_t cell, const int *node)
 {
     static const unsigned char corner[4][4] = { { 0, 4, 6, 7 }, { 4, 1, 5, 8 }, { 6, 5, 2, 9 },
@@ -211,7 +212,8 @@ done:
     return status;
 }
 
-/* Cells with Gauss points: whole, or point by point. Points of a cell follow one another. */
+/* Appends cells with Gauss points, each as a whole or as one element per point. The points of a cell are
+ * consecutive. */
 static pg_status list_cells (element_list *b)
 {
     pg_status status = PG_OK;
@@ -233,7 +235,7 @@ done:
 }
 
 /* ---- nodal integration --------------------------------------------------------------------------------- */
-/* The node that stands `shift` from node i, which still sees it; -1: there is none. */
+/* The node at x_i + shift if the bond from node i to it is intact; -1: there is none. */
 static int seen_at (const galerkin *g, size_t i, const double *shift)
 {
     const pg_rows *r = &g->rows[PG_NODES];
@@ -244,12 +246,13 @@ static int seen_at (const galerkin *g, size_t i, const double *shift)
     return node;
 }
 
-/* On a lattice the gradient at node i is a difference between its neighbours on both sides, so that nodes of
- * odd and even places along an axis hardly know of each other: each of the 2^dim classes of nodes may move by
- * itself with next to no energy. So shall the elements: the box from the neighbours on one side to those on
- * the other, two steps wide, whose corners are all of one class; along an axis on which a neighbour is
- * missing, where the gradient is one-sided and ties classes together, from node i on. Its nodes, and its size
- * over that of a cell; 0: node i does not see all corners. */
+/* The box that is the element around node i of a lattice with nodal integration. The gradient at node i is a
+ * difference between its neighbours on both sides, so that nodes at odd and even positions along an axis
+ * hardly interact: each of the 2^dim parity classes of nodes may move by itself with almost no energy. The
+ * box reflects this: it is two steps wide, from the neighbours on one side to those on the other, so that its
+ * corners are all of one class; along an axis on which a neighbour is missing, where the gradient is
+ * one-sided and couples classes, it begins at node i. size: its volume over that of a cell. Returns the
+ * number of its nodes; 0: a bond from node i to a corner is missing. */
 static size_t box_around (const galerkin *g, size_t i, int *node, double *size)
 {
     const double *step = g->problem->cloud.step;
@@ -271,7 +274,8 @@ static size_t box_around (const galerkin *g, size_t i, int *node, double *size)
     return *size > 0 ? m : 0;
 }
 
-/* Every node: on a lattice the box around it, where nothing resists what alternates. */
+/* Appends an element for every node: on a lattice without stabilisation the box around it, else an element
+ * around the point. */
 static pg_status list_nodes (element_list *b)
 {
     pg_status status = PG_OK;
@@ -291,8 +295,8 @@ done:
 }
 
 /* ---- points at the centres of the cells ---------------------------------------------------------------- */
-/* The nodes one step along from node i towards + on all axes, itself first, in the order of a box; 0: there
- * are not as many. */
+/* The nodes at the corners of the box that extends one step from node i in all positive directions, i first;
+ * 0: some are missing. */
 static size_t box_of (const galerkin *g, size_t i, int *node)
 {
     size_t m = (size_t) 1 << g->dim;
@@ -307,7 +311,7 @@ static size_t box_of (const galerkin *g, size_t i, int *node)
     return m;
 }
 
-/* Does a crack part two nodes of a box? */
+/* Does a crack separate two nodes of a box? */
 static int parted (const galerkin *g, size_t m, const int *node)
 {
     const pg_rows *r = &g->rows[PG_NODES];
@@ -319,9 +323,9 @@ static int parted (const galerkin *g, size_t m, const int *node)
     return 0;
 }
 
-/* Boxes between points that stand at the centres of the cells. The volume of each point is shared among its
- * boxes, so that those at the surface also count for the half cells outside of them; what belongs to parted
- * boxes, and points without any, become elements around the points. */
+/* Appends boxes between points that are the centres of the cells. The volume of each point is shared among
+ * its boxes, so that those at the surface include the half cells outside of them. Shares of boxes cut by a
+ * crack, and points without any box, become elements around the points. */
 static pg_status list_boxes (element_list *b)
 {
     pg_status status = PG_OK;
@@ -362,7 +366,7 @@ static int at_centres (const pg_problem *p)
     return kept == p->cloud.n;
 }
 
-/* Facet points that Nitsche's terms hold: springs between the nodes near by. */
+/* Appends springs between nearby nodes for facet points under Nitsche's terms. */
 static pg_status list_supports (element_list *b)
 {
     pg_status status = PG_OK;
@@ -375,7 +379,7 @@ done:
     return status;
 }
 
-/* By where the evaluation points are. */
+/* Lists the elements, according to where the evaluation points lie. */
 pg_status elements_find (element_list *b)
 {
     pg_status status = PG_OK;

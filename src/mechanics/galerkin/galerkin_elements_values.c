@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * N of the preconditioner (linalg.h, pg_elements): values of the shape functions at the nodes.
  *
- * P^-1 = p (N) V p (N)' takes patterns that alternate from node to node for nearly free of energy, as shape
- * functions smooth them: p (N) blows them up by 1 / N. Evaluation points that lost bonds to a crack do not
- * smooth. One that stands beyond the last nodes of its side extrapolates: of the next layer only the node
- * nearest to it lies within its support, with a steep derivative, and an alternating pattern there has as
- * much energy as any other. P of such patterns is too large by K / (N' Q N): 69 for a crack 0.1 spacings
- * beside a lattice plane, where 2 is the largest of the intact body. The rows of N there are therefore
- * mixed with the unit row, s N + (1 - s) I. An alternating pattern is then left with the energy (1 - s)^2
- * Q, which shall be what K has beyond the usual:
+ * P^-1 = p (N) V p (N)' treats displacements that alternate from node to node as nearly free of energy, as
+ * shape functions smooth them: p (N) magnifies them by 1 / N. Evaluation points that lost bonds to a crack
+ * do not smooth. One that lies beyond the last nodes of its side extrapolates: of the next layer only the
+ * node nearest to it lies within its support, with a steep derivative, and an alternating pattern there has
+ * as much energy as any other. P of such patterns is too large by K / (N' Q N): 69 for a crack 0.1 spacings
+ * beside a lattice plane, where 2 is the largest of the intact body. The rows of N there are therefore mixed
+ * with the unit row, s N + (1 - s) I. An alternating pattern then has the energy (1 - s)^2 Q, which is
+ * chosen as the excess of K over the usual:
  *
- *     (1 - s_i)^2 = rho_i - c rho,   rho_i = tr K_ii / tr Q_ii,
+ *    (1 - s_i)^2 = rho_i - c rho,   rho_i = tr K_ii / tr Q_ii,
  *
- * with K_ii of the evaluation points, rho the median of all nodes, and c = 1.55, as nodes on a free surface
- * have without harm. */
+ * with K_ii of the evaluation points, rho the median of all nodes, and c = 1.55, which nodes on a free
+ * surface have without harm. */
 #include "galerkin_elements.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* At most this share of the row of a node that lost bonds itself (measured: 1 and 0.85 need 1.4 and 1.1 times
- * the iterations). */
+/* Largest s in the row of a node that has lost bonds itself (measured: 1 and 0.85 need 1.4 and 1.1 times the
+ * iterations). */
 static const double most_share = 0.93;
-/* Nodes of a free surface have so many times the usual rho. */
+/* c: rho of nodes on a free surface over the median of all nodes. */
 static const double on_surface = 1.55;
 
-/* Has an evaluation point or node lost a bond? */
+/* Has point p of r lost a bond? */
 static int has_lost (const galerkin *g, const pg_rows *r, size_t p)
 {
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
@@ -33,8 +33,8 @@ static int has_lost (const galerkin *g, const pg_rows *r, size_t p)
     return 0;
 }
 
-/* beside (n): 1 for nodes that an evaluation point with lost bonds still sees. Returns whether there are
- * any. */
+/* beside (n): 1 for nodes with an intact bond to an evaluation point that has lost others. Returns whether
+ * there are any. */
 static int find_beside (const galerkin *g, unsigned char *beside)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -49,7 +49,7 @@ static int find_beside (const galerkin *g, unsigned char *beside)
 }
 
 /* rho (n): trace of K_ii, for isotropic D that of w B' D B = w (D_11 + (dim - 1) mu) |dN|^2, over that of
- * Q_ii; 0 where Q has none. */
+ * Q_ii; 0 where node i has no Q_ii. */
 static void compare_diagonals (const galerkin *g, const pg_block_matrix *Q, double *rho)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -71,7 +71,7 @@ static void compare_diagonals (const galerkin *g, const pg_block_matrix *Q, doub
     }
 }
 
-/* Shares s of the rows (n), 1 away from cracks. */
+/* share (n): weights s of the rows of N, 1 away from cracks. */
 static pg_status find_shares (const galerkin *g, const pg_block_matrix *Q, double *share)
 {
     pg_status status = PG_OK;
@@ -94,7 +94,8 @@ done:
     return status;
 }
 
-/* Row i of N, share of it and the rest of the unit row, from place *at on. */
+/* Writes row i of N, `share` times the shape functions plus (1 - share) times the unit row, from entry *at
+ * on. */
 static void write_row (const pg_rows *r, size_t i, double share, pg_node_matrix *N, size_t *at)
 {
     int own = 0;
@@ -108,7 +109,7 @@ static void write_row (const pg_rows *r, size_t i, double share, pg_node_matrix 
     N->start[i + 1] = *at;
 }
 
-/* Nodes whose displacement is not a sum of this kind, because too few neighbours are left, get the unit
+/* Makes N. Nodes whose displacement is not interpolated, because too few neighbours are left, get the unit
  * row. */
 pg_status elements_values (const galerkin *g, const pg_block_matrix *Q, pg_node_matrix *N)
 {

@@ -3,7 +3,8 @@
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include <string.h>
 
-/* How many bonds end at each node, node-node and point-node, once for all. A bond of no length is none. */
+/* Counts the bonds that end at each node (node-node and point-node) on the first call. Bonds of zero length
+ * do not count. */
 static pg_status count_ends (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -19,8 +20,8 @@ done:
     return status;
 }
 
-/* Share of dead bonds among all that end at a node. Most points have all their bonds, which one look at their
- * bits shows. */
+/* Share of broken bonds among all that end at a node. A memchr over its flags skips points without broken
+ * bonds. */
 static pg_status damage (galerkin *g, const pg_state *state, double *value)
 {
     pg_status status = PG_OK;
@@ -69,8 +70,8 @@ void galerkin_from_nodes (void *self, const double *F, double *f)
     }
 }
 
-/* A field of results by name, value: n x components. Displacement and velocity are those that the shape
- * functions make, not their coefficients, which a field of its own shows; *components = 0: unknown here. */
+/* A field of results by name; value: n x components. Displacement and velocity are interpolated by the shape
+ * functions; their coefficients are the field "coefficient". *components = 0: the name is unknown here. */
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value)
 {

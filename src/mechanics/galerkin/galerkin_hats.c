@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Finite elements on a coarse grid over nodes that are evaluation points themselves and stand irregularly:
- * the preconditioner of clouds of points without cells (linalg.h, pg_elements).
+ * Finite elements on a coarse grid, as the preconditioner of irregular points without cells where the nodes
+ * are the evaluation points (linalg.h, pg_elements).
  *
  * K x of such points is cheap, some 30 bonds a node, and finite elements on all the nodes cost several times
- * as much. But it is smooth displacements that make the iterations of the diagonal grow with the body: what
- * alternates from node to node has little energy on irregular points, but never none. So
+ * as much. It is smooth displacements that make the iterations with a diagonal preconditioner grow with the
+ * body: displacements that alternate from node to node have little energy on irregular points, but never
+ * none. So
  *
  *     P^-1 = D^-1 + H V (Q) H',   Q = H' K H,
  *
- * with hats H on a grid of 2.5 horizons (one of 0.6 horizons needs as many iterations). The number of
- * iterations hardly grows with the body, and each takes little more than K x. Q is summed up point by point,
- * cell of the grid by cell: with q_f = sum_j H_f (x_j) dN_pj of the functions f that the nodes of point p
- * have, and e_fr the strain of a displacement of them along axis r, w e_fr . D e_gs. Unknowns that
- * elimination or stiff penalties determine take no part; other supports are springs at their points. */
+ * with hat functions H on a grid of 2.5 horizons (one of 0.6 horizons needs as many iterations). The number
+ * of iterations hardly grows with the body, and each costs little more than K x. Q is summed up point by
+ * point, cell of the grid by cell: with q_f = sum_j H_f (x_j) dN_pj of the hat functions f that do not
+ * vanish at the nodes of point p, and e_fr the strain of a displacement q_f along axis r, w e_fr . D e_gs.
+ * Unknowns that elimination or stiff penalties determine are excluded; other supports are springs at their
+ * points. */
 #include "galerkin_elements.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,28 +23,29 @@
 /* Step of the grid in units of the horizon. */
 static const double coarse = 2.5;
 
-/* While it is summed up. */
+/* Working data of the summation. */
 typedef struct {
     galerkin *g;
     pg_elements *out;
-    unsigned char *fixed;                              /* unknowns that take no part (n x dim) */
-    /* Functions that are summed up together: those of a cell of the grid, then those of each support. */
+    unsigned char *fixed;                              /* 1: unknowns that are excluded (n x dim) */
+    /* Hat functions that are summed up together: for each cell of the grid, then for each support. */
     pg_adjacency groups;
     size_t  most, cap_start, cap_node;
-    /* The group at hand: its functions (m), their matrix K (m dim x m dim); `seen` (functions): place in it
-     * + 1, 0: none. */
+    /* The present group: its m functions, their matrix K (m dim x m dim); seen (functions): position in the
+     * group + 1, 0: not in it. */
     int    *of, *seen;
     size_t  m, cap_of;
     double *K;
-    /* The point at hand: its functions, as places in the group (count), strains e and weighted stresses s
-     * of each along each axis; `local` (places in the group): which of them + 1, 0: none. */
+    /* The present evaluation point: positions of its functions in the group (count), strains e and weighted
+     * stresses s of each along each axis; local (positions in the group): number of the function at this
+     * point + 1, 0: none. */
     int    *at, *local;
     size_t  count;
     double *e, *s;
 } sums;
 
-/* Points on a lattice and those with wide supports keep elements on all nodes; so do ranks, as the grid would
- * be that of a subdomain. */
+/* 1: elements on a coarse grid are used. Not for points on a lattice or with wide supports, which keep
+ * elements on all nodes, nor on several ranks, as each grid would cover a subdomain only. */
 int galerkin_takes_hats (const galerkin *g)
 {
     pg_solve_counts c = pg_solve_count (g->problem);
@@ -50,7 +53,7 @@ int galerkin_takes_hats (const galerkin *g)
 }
 
 /* ---- the grid ------------------------------------------------------------------------------------------ */
-/* Nodes that node i sees. */
+/* Lists the nodes to which the bonds of node i are intact, and i. */
 static size_t seen_by (void *context, size_t i, int thread, int *node, double *value)
 {
     const galerkin *g = context;
@@ -81,7 +84,7 @@ done:
 }
 
 /* ---- which functions belong together ------------------------------------------------------------------- */
-/* Gives the functions at node j places in the group. */
+/* Adds the hat functions at node j to the group. */
 static pg_status meet (sums *b, size_t j)
 {
     pg_status status = PG_OK;
@@ -110,7 +113,7 @@ static void leave (sums *b)
     b->m = 0;
 }
 
-/* Ends the list of a group. */
+/* Closes the list of a group. */
 static pg_status append (sums *b)
 {
     pg_status status = PG_OK;
@@ -125,8 +128,9 @@ done:
     return status;
 }
 
-/* Supports: the k-th one of a body, its point and set of rows, its component and stiffness. 0: there are no
- * more. Nitsche's terms at facets, then penalties that are no stiff springs. */
+/* The k-th support of a body: its point and set of rows, its component, and its stiffness, N/m (0: stiff
+ * penalties, treated elsewhere). First Nitsche's terms at facets, then penalties. Returns 0 if there are no
+ * more. */
 typedef struct { const pg_rows *rows; size_t point, component; double stiffness; } support;
 static int support_of (const galerkin *g, size_t k, support *s)
 {
@@ -145,7 +149,8 @@ static int support_of (const galerkin *g, size_t k, support *s)
     return 1;
 }
 
-/* Functions of all nodes that the points of each cell of the grid see, and of each support. */
+/* Lists the hat functions at all nodes in the families of the points of each cell of the grid, and of each
+ * support. */
 static pg_status list_groups (sums *b)
 {
     pg_status status = PG_OK;
@@ -164,7 +169,7 @@ done:
     return status;
 }
 
-/* Takes the functions of a group as they were listed. */
+/* Makes a group the present one, with its functions as listed. */
 static void enter (sums *b, size_t group)
 {
     b->m = b->groups.start[group + 1] - b->groups.start[group];
@@ -173,7 +178,7 @@ static void enter (sums *b, size_t group)
     memset (b->K, 0, b->m * b->m * (size_t) (b->g->dim * b->g->dim) * sizeof *b->K);
 }
 
-/* Hands its matrix over. */
+/* Adds the matrix of the present group to Q. */
 static void hand_over (sums *b)
 {
     size_t width = b->m * (size_t) b->g->dim;
@@ -203,7 +208,7 @@ static void stress_of (size_t nv, const double *D, double w, const double *e, do
     }
 }
 
-/* Which function of the point is f; makes one of so many numbers. */
+/* Position of hat function f among those of the present point; a new one starts with `width` zeros in e. */
 static size_t place_of (sums *b, int f, size_t width)
 {
     int at = b->seen[f] - 1;
@@ -214,7 +219,7 @@ static size_t place_of (sums *b, int f, size_t width)
     return (size_t) b->local[at] - 1;
 }
 
-/* K += e . s of all pairs, on and above the diagonal. */
+/* K += e . s of all pairs of functions of the point, on and above the diagonal. */
 static void add_pairs (sums *b, size_t nv)
 {
     size_t dim = (size_t) b->g->dim, width = b->m * dim;
@@ -234,7 +239,8 @@ static void add_pairs (sums *b, size_t nv)
     b->count = 0;
 }
 
-/* Point p: strains of its functions, their stresses, their energies; and what it adds to the diagonal. */
+/* Adds evaluation point p: strains of its functions, their stresses and energies, to K and to the
+ * diagonal. */
 static void add_point (sums *b, size_t p)
 {
     const galerkin *g = b->g;
@@ -264,7 +270,7 @@ static void add_point (sums *b, size_t p)
     add_pairs (b, nv);
 }
 
-/* A spring that holds a component of the displacement at a point. */
+/* Adds the spring of a support, which holds a component of the displacement at a point. */
 static void add_spring (sums *b, const support *s)
 {
     const pg_rows *r = s->rows;
@@ -283,7 +289,7 @@ static void add_spring (sums *b, const support *s)
 }
 
 /* ---- all of it ----------------------------------------------------------------------------------------- */
-/* Unknowns that others determine: slaves of elimination, and those that stiff springs hold. */
+/* Marks the unknowns that are determined elsewhere: slaves of elimination, and those of stiff penalties. */
 static pg_status find_fixed (sums *b)
 {
     pg_status status = PG_OK;
@@ -298,7 +304,7 @@ done:
     return status;
 }
 
-/* Room for the largest group, and for all functions of a point. */
+/* Allocates room for the largest group, and for all functions of a point. */
 static pg_status make_room (sums *b)
 {
     pg_status status = PG_OK;
@@ -313,7 +319,7 @@ done:
     return status;
 }
 
-/* No two functions of a group are further apart. */
+/* The largest distance of two functions of a group, m. */
 static double farthest (const sums *b)
 {
     const pg_adjacency *l = &b->groups;
@@ -345,7 +351,7 @@ static void sum_up (sums *b)
     }
 }
 
-/* Of the bonds that live at the last refresh; W is known already. */
+/* Makes the elements for the bonds that were intact at the last refresh; out->W is known already. */
 pg_status galerkin_hats (galerkin *g, pg_elements *out)
 {
     pg_status status = PG_OK;

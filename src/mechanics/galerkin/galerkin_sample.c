@@ -1,37 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Displacement, its gradient and stress at any place, by the method's own shape functions evaluated there.
- * Which bonds live at a place: those that no crack cuts, and whose node the nearest evaluation point and the
- * nearest node on the same side of the cracks (all of them where several are as near) have not lost since.
- * Where that leaves a poorer basis than the
- * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
- * faces of a crack stay apart. In a body without cracks and broken bonds none of this need be asked, and on a
- * lattice most places are like others (galerkin_sample_alike.c). */
+ * Displacement, its gradient and stress at arbitrary positions, by the method's own shape functions
+ * evaluated there. A bond from a position to a node counts as intact if no crack cuts it and the nearest
+ * evaluation point and the nearest node on the same side of the cracks (all of them where several are
+ * equally near) still have an intact bond to that node. Where that leaves a poorer basis than the nearest
+ * evaluation point q has, the first-order expansion u_q + grad u_q (x - x_q) and the stress of q are used.
+ * This keeps the two faces of a crack apart. Bodies without cracks and broken bonds skip these tests, and on
+ * a lattice most positions share the shape functions of another one (galerkin_sample_alike.c). */
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
 
-/* Places at a time, which bounds the memory. MANY: from how many places on, and one for so many nodes
- * (SHARE), it pays to look for places that are alike. */
+/* CHUNK: positions evaluated at a time, which bounds the memory. Looking for positions with equal
+ * surroundings pays from MANY positions on, if there is at least one for every SHARE nodes. */
 enum { CHUNK = 8192, MANY = 1024, SHARE = 8 };
 
 typedef struct {
     galerkin *g;
     const pg_state *state;
     const double *d;
-    /* No crack, no broken bond; and one material, every point with its whole basis: no place needs to know
-     * its nearest evaluation point. */
+    /* intact: there is no crack and no broken bond. uniform: intact, one material, and every point has its
+     * full basis, so that no position needs to know its nearest evaluation point. */
     int intact, uniform;
-    pg_rows rows;                                      /* of the places at hand */
+    pg_rows rows;                                      /* of the positions being sampled */
     unsigned char *alive;
-    _Atomic unsigned char *held;                       /* per node: is_held; 0: not asked yet */
-    size_t *at;                                        /* nearest evaluation point */
+    _Atomic unsigned char *held;                       /* per node: result of is_held; 0: not computed yet */
+    size_t *at;                                        /* nearest evaluation point of each position */
     double time;                                       /* of the state, s; static: load factor */
     double *u, *stress, *gradient;                     /* n x 3; n x 6, n x 9 or NULL */
-    const double *pressure;                            /* of patches, at the nodes (n), Pa; NULL: none */
+    const double *pressure;          /* pressure of the dilatation patches at the nodes, Pa (n); NULL: none */
 } sampling;
 
-/* Does a crack lie between two places? */
+/* Does a crack lie between the positions x and y? */
 static int cut (const sampling *s, const double *x, const double *y)
 {
     const pg_problem *p = s->g->problem;
@@ -55,7 +55,7 @@ static int node_hidden (void *context, const double *place, size_t node)
     return cut (s, place, node_at (s->g, (int) node));
 }
 
-/* Is bond e of a point dead for another reason than a pre-crack? */
+/* Is bond e of a point broken for another reason than that a pre-crack cuts it? */
 static int broken (const sampling *s, int set, size_t point, size_t e)
 {
     const galerkin *g = s->g;
@@ -72,7 +72,8 @@ static int hurt (const sampling *s, int set, size_t point)
 }
 
 enum { ALIVE, CUT, LOST, UNKNOWN };
-/* Of node j by a point: its bond lives; only a pre-crack cuts it; has broken; is none. */
+/* State of the bond from a point to node j: ALIVE: intact; CUT: cut by a pre-crack; LOST: broken during the
+ * run; UNKNOWN: j is not in the family of the point. */
 static int view (const sampling *s, int set, size_t point, int j)
 {
     const pg_family *f = &s->g->rows[set].family;
@@ -87,8 +88,9 @@ static int view (const sampling *s, int set, size_t point, int j)
     return broken (s, set, point, low) ? LOST : CUT;
 }
 
-/* Does one of the evaluation points nearest to node j, on its side of the cracks, see it? Else no stiffness
- * holds it, such as between two cracks, and its coefficient means nothing. Threads find the same. */
+/* Has one of the evaluation points nearest to node j, on its side of the cracks, an intact bond to it? If
+ * not, nothing resists a displacement of the node, such as between two cracks, and its coefficient means
+ * nothing. Threads that compute it twice get the same result. */
 static int is_held (sampling *s, int j)
 {
     enum { HELD = 1, LOOSE };
@@ -105,10 +107,10 @@ static int is_held (sampling *s, int j)
     return known == HELD;
 }
 
-/* Points of a bond set that are as near to a place. */
+/* Points of a bond set that are equally near to a position. */
 typedef struct { int set; size_t n, point[PG_NEAREST_MOST]; } nearest_points;
 
-/* The nearest that no pre-crack hides, else the nearest. */
+/* The nearest points that no pre-crack hides from x; the nearest ones where all are hidden. */
 static void find_nearest (sampling *s, const double *x, int set, nearest_points *out)
 {
     const galerkin *g = s->g;
@@ -119,7 +121,8 @@ static void find_nearest (sampling *s, const double *x, int set, nearest_points 
     out->set = set, out->n = pg_nearest_seen (grid, x, same, refuse, s, out->point);
 }
 
-/* What all of them know of node j: alive for one, else lost for one, else cut off. */
+/* State of the bonds from all points q to node j: ALIVE if one of them is intact, else LOST if one has
+ * broken, else CUT or UNKNOWN. */
 static int view_of_all (const sampling *s, const nearest_points *q, int j)
 {
     int answer = UNKNOWN;
@@ -130,8 +133,9 @@ static int view_of_all (const sampling *s, const nearest_points *q, int j)
     return answer;
 }
 
-/* Whether a place sees node j is asked of its nearest evaluation points q, then of its nearest nodes i. One
- * at the rim that none of them knows counts unless it and one of i have lost bonds. */
+/* Does a position interact with node j? Decided by the bonds of its nearest evaluation points q, then by
+ * those of its nearest nodes i. A node at the rim of the support that is in none of these families counts,
+ * unless both it and one of i (lost) have lost bonds. */
 static int sees (sampling *s, const nearest_points *q, const nearest_points *i, int lost /* one of i has */,
                  int j)
 {
@@ -143,7 +147,8 @@ static int sees (sampling *s, const nearest_points *q, const nearest_points *i, 
     return answer == UNKNOWN ? !(lost && hurt (s, PG_NODES, (size_t) j)) : answer != LOST;
 }
 
-/* Of the nearest evaluation points one with the most whole basis, by which places are judged. */
+/* The one of the nearest evaluation points q with the fullest basis; the basis of a position is compared with
+ * it. */
 static size_t best_of (const sampling *s, const nearest_points *q)
 {
     const unsigned char *grade = s->g->rows[q->set].grade;
@@ -178,7 +183,7 @@ static void find_bonds (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* The nearest evaluation point alone: where no bond is lost. */
+/* Finds only the nearest evaluation point of each position; used where no bond is lost. */
 static void find_points (void *context, size_t first, size_t last, int thread)
 {
     sampling *s = context;
@@ -190,8 +195,8 @@ static void find_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Are all bonds of nodes and evaluation points there, and is no crack? Do all points know their material and
- * carry their basis alike? */
+/* Sets `intact` (all bonds of nodes and evaluation points are there, and no crack is) and `uniform` (one
+ * material, and all points have their full basis). */
 static void look_over (sampling *s)
 {
     const galerkin *g = s->g;
@@ -206,7 +211,8 @@ static void look_over (sampling *s)
     for (size_t q = 0; q < bulk->n && s->uniform; q++) s->uniform = bulk->grade[q] == PG_GRADE_FULL;
 }
 
-/* u and its gradient H[c * dim + k] = du_c/dx_k from row `at` of r; loops of known length. */
+/* u and its gradient H[c * dim + k] = du_c/dx_k from row `at` of r; inlined with dim known, so that loops
+ * unroll. */
 static inline __attribute__ ((always_inline)) void add_up (size_t dim, const pg_rows *r, size_t at,
                                                            const double *nodal, double *u, double *H)
 {
@@ -241,7 +247,8 @@ void pg_stress_of_gradient (const pg_material *m, int dim, const double *H, doub
     if (dim == 2) stress[1] = s[1], stress[2] = zz, stress[3] = s[2];
 }
 
-/* The pressure of the patches (Pa), between the nodes of the point's material by their shape functions. */
+/* The pressure of the dilatation patches (Pa) at row `at` of r, interpolated by the shape functions from the
+ * nodes that have the material of `point`. */
 static double pressure (const sampling *s, const pg_rows *r, size_t at, size_t point)
 {
     const galerkin *g = s->g;
@@ -255,8 +262,9 @@ static double pressure (const sampling *s, const pg_rows *r, size_t at, size_t p
     return share > 0.1 ? sum / share : 0;
 }
 
-/* u and its gradient at x as those of the nearest evaluation point q go on, in the mean of all that are as
- * near: numbers and rounding choose none of them. Returns the pressure of the patches there, Pa. */
+/* First-order expansion to x of u and its gradient at the nearest evaluation point q, averaged over all
+ * points that are equally near, so that the result depends neither on numbering nor on rounding. Returns the
+ * pressure of the dilatation patches there, Pa. */
 static double go_on_from (sampling *s, const double *x, size_t q, double *u, double *H)
 {
     double sum = 0;
@@ -307,7 +315,8 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* A place that is a node: the methods that expand about nodes do so there. */
+/* own (n): the node that each position coincides with, -1: none. Approximations that expand about a node do
+ * so there. */
 static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
 {
     for (size_t p = 0; p < n; p++) {
@@ -321,21 +330,22 @@ static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
     }
 }
 
-/* Rows of places, and where bonds are lost or materials differ the evaluation points nearest to them. */
+/* Shape functions at n positions, and, where bonds are lost or materials differ, the evaluation points
+ * nearest to them. */
 static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
     size_t bonds, dim = (size_t) s->g->dim;
     pg_approx a = p->form.approx;
-    a.refined = 0;                                     /* places that are alike have the same field */
+    a.refined = 0;                                 /* positions with equal surroundings share their row */
     int about_nodes = p->form.approx.type->interpolates || !s->intact;
     if (about_nodes) find_nodes (s->g, n, x, own);
     PG_TRY (pg_rows_place (&s->rows, s->g->places.search, &p->cloud, n, x, NULL, about_nodes ? own : NULL,
                            NULL,
                            NULL, s->g->threads));
     bonds = s->rows.family.start[n];
-    PG_ALLOC (s->rows.N, bonds);                       /* the influence is not asked for */
+    PG_ALLOC (s->rows.N, bonds);                       /* w is left NULL: not needed here */
     PG_ALLOC (s->rows.dN, bonds * dim);
     PG_ALLOC (s->rows.grade, n);
     if (!s->intact) PG_ALLOC (s->alive, bonds);
@@ -348,8 +358,8 @@ done:
     return status;
 }
 
-/* The places of a chunk that need rows of their own. Those that are the first of their kind leave their rows
- * for others (leaves: key or -1; NULL: none does). */
+/* Samples the positions of a chunk that need shape functions of their own. leaves[i] >= 0: the key under
+ * which those of position i are kept for others with equal surroundings (leaves NULL: none are kept). */
 static pg_status sample_each (sampling *s, size_t n, const double *x, int *own, const int *leaves)
 {
     pg_status status = PG_OK;
@@ -363,7 +373,8 @@ done:
     return status;
 }
 
-/* Places among cracks that may be asked for again: by rows that were kept, else by new ones, which are. */
+/* Positions near cracks that may be sampled again: uses kept shape functions if there are any, else computes
+ * and keeps new ones. */
 static pg_status sample_again (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;
@@ -385,7 +396,7 @@ done:
 }
 
 /* ---- places that are alike ----------------------------------------------------------------------------- */
-/* Places of a chunk by kept rows: which (n), scratch of each thread. */
+/* Sampling by kept shape functions: which (n): key of each position, value: scratch of each thread. */
 typedef struct { const sampling *s; const double *x; const int *which; double *value; } by_rows;
 
 static void evaluate_alike (void *context, size_t first, size_t last, int thread)
@@ -406,7 +417,8 @@ static void evaluate_alike (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Samples the listed places one by one into the places of the chunk's arrays. */
+/* Samples the listed positions with shape functions of their own and writes the results into the chunk's
+ * arrays. */
 static pg_status sample_rest (const sampling *chunk, size_t n, const size_t *rest, const int *leaves,
                               const double *x, int *own)
 {
@@ -430,8 +442,8 @@ done:
     return status;
 }
 
-/* Samples places of a lattice: one by one those that share no kept row, then those whose row turns out to
- * serve nobody else; the rest, which see their nodes alike, by the kept rows. */
+/* Samples positions of a lattice: first, one by one, those that share no kept row, then those whose kept row
+ * turns out to be unusable for others; all remaining ones, whose surroundings are equal, by the kept rows. */
 static pg_status sample_alike (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;

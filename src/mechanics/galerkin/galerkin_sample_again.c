@@ -1,37 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Places that are sampled again and again: those around the tip of a crack, for displacement, velocity and
- * acceleration, look by look while the tip runs along a facet. Their shape functions are kept, batch by
- * batch, and serve again where they would come out bit by bit as before. They follow from the places, the
- * cracks and the bonds that live around them (galerkin_sample.c), so these are kept beside them and compared:
+ * Positions that are sampled repeatedly: those around the tip of a crack, for displacement, velocity and
+ * acceleration, again and again while the tip runs along a facet. Their shape functions are kept, batch by
+ * batch, and used again where a new evaluation would give the same bits. They follow from the positions, the
+ * cracks and the intact bonds around them (galerkin_sample.c), so these are kept beside them and compared:
  *
- *   a place x asks the nearest evaluation point and the nearest node that no crack hides from it, which of
- *   their bonds live, and of the nodes that it sees itself whether any bond does not,
+ * a position x depends on the bonds of the nearest evaluation point and of the nearest node that no crack
+ * hides from it, and on whether any bond of the nodes in its own support is broken,
  *
  * all within two horizons of x (a batch whose nearest points lie farther away is not kept), and the cracks
- * that decide on it lie within three. A batch is valid as long as nothing in its box, wider by that, has
+ * that decide on it lie within three. A batch is valid as long as nothing in its box, enlarged by that, has
  * changed; what happens elsewhere in the body costs a comparison of some ten thousand bytes. */
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include <math.h>
 #include <string.h>
 
-/* FEW: fewer places are not worth it. BATCHES: kept at most; the one not used for longest makes room. */
+/* FEW: batches with fewer positions are not kept. BATCHES: most batches that are kept; a new one replaces the
+ * one unused for longest. */
 enum { FEW = 64, BATCHES = 64 };
-/* In horizons: how far away live bonds and cracks matter. */
+/* Distances in horizons within which bonds (near_bonds) and cracks (near_cracks) influence a position. */
 static const double near_bonds = 2, near_cracks = 3;
-/* Numbers of all batches at most: 64 MB. */
+/* Doubles that all batches together may hold: 64 MB. */
 static const size_t room = 8u << 20;
 
-/* What the shape functions of a batch follow from: live bonds, then the numbers of cracks. */
+/* State that the shape functions of a batch follow from: intact flags of bonds, then the geometry of cracks,
+ * as bytes. */
 typedef struct { unsigned char *byte; size_t n, cap; } surroundings;
 
 typedef struct {
     size_t n, nnear[2];
-    double *x, low[2], high[2];                        /* places, m (n x 2); their box, m */
-    size_t *near[2];                                   /* nodes and evaluation points around the box */
+    double *x, low[2], high[2];                        /* positions, m (n x 2); their bounding box, m */
+    size_t *near[2];                                  /* nodes (0) and evaluation points (1) around the box */
     surroundings around;
     pg_rows rows;
     size_t *at;                                        /* nearest evaluation point of each place (n) */
-    long    used;                                      /* when it last served */
+    long    used;                                      /* clock of its last use */
 } batch;
 
 struct galerkin_again { batch kept[BATCHES]; size_t n; long clock; surroundings now; };
@@ -52,7 +54,7 @@ void galerkin_again_free (galerkin_again **again)
     *again = NULL;
 }
 
-/* Plane bodies of one spacing, with cracks; in space all of a front changes in every event. */
+/* Serves 2D bodies of uniform spacing only: in 3D the whole crack front changes in every event. */
 int galerkin_again_serves (const galerkin *g, size_t n)
 {
     const pg_problem *p = g->problem;
@@ -60,14 +62,14 @@ int galerkin_again_serves (const galerkin *g, size_t n)
 }
 
 /* ---- what is around ------------------------------------------------------------------------------------ */
-/* Does the box low .. high, wider by `more`, hold x? */
+/* Does the box of the batch, enlarged by `more` (m) on every side, hold x? */
 static int within (const batch *b, const double *x, double more)
 {
     return x[0] >= b->low[0] - more && x[0] <= b->high[0] + more && x[1] >= b->low[1] - more
            && x[1] <= b->high[1] + more;
 }
 
-/* The nodes and evaluation points whose bonds count. */
+/* Lists the nodes and evaluation points whose bonds influence the batch. */
 static pg_status find_near (batch *b, const galerkin *g)
 {
     pg_status status = PG_OK;
@@ -93,7 +95,8 @@ done:
     return status;
 }
 
-/* Where a segment cuts: its ends, how far it stops before them, its sides. */
+/* Appends what decides which bonds a crack segment cuts: its vertices, by how much it is shortened at its
+ * ends, its sides. */
 static pg_status add_crack (surroundings *s, const pg_crack *c)
 {
     pg_status status = PG_OK;
@@ -105,7 +108,8 @@ done:
     return status;
 }
 
-/* The surroundings of a batch as they are: bonds of the listed points, cracks whose box meets its own. */
+/* Collects the present surroundings of a batch: bonds of the listed points, and cracks whose bounding box
+ * meets the enlarged box of the batch. */
 static pg_status look_around (surroundings *out, const batch *b, const galerkin *g, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -140,7 +144,7 @@ static size_t numbers_of (const batch *b)
     return b->rows.family.start[b->n] * 4 + b->n * 8 + b->around.n / 8 + b->nnear[0] + b->nnear[1];
 }
 
-/* The last of the list takes the place of one that goes. */
+/* Removes batch k; the last of the list takes its place. */
 static void drop (galerkin_again *a, size_t k)
 {
     clear_batch (&a->kept[k]);
@@ -148,8 +152,8 @@ static void drop (galerkin_again *a, size_t k)
     a->kept[a->n] = (batch) { 0 };
 }
 
-/* Rows and nearest points of these places if they are kept and valid: *rows NULL: not. They belong to the
- * force. */
+/* Kept shape functions and nearest evaluation points of exactly these positions, owned by the force; *rows
+ * NULL: none are kept, or they are out of date. */
 pg_status galerkin_again_find (galerkin *g, const pg_state *state, size_t n, const double *x,
                                const pg_rows **rows, size_t **at)
 {
@@ -185,7 +189,8 @@ static void make_room (galerkin_again *a)
     }
 }
 
-/* Is what every place asked within reach? */
+/* Are the nearest evaluation points of all positions within `near_bonds` horizons, so that the batch may be
+ * kept? */
 static int asks_near (const galerkin *g, size_t n, const double *x, const size_t *at)
 {
     double reach = near_bonds * g->problem->form.approx.horizon;
@@ -196,7 +201,8 @@ static int asks_near (const galerkin *g, size_t n, const double *x, const size_t
     return 1;
 }
 
-/* Keeps what was made for these places: rows and at (n) are taken over, and empty after it. */
+/* Keeps shape functions and nearest points of n positions: takes over *rows and *at, which are empty
+ * afterwards. */
 pg_status galerkin_again_keep (galerkin *g, const pg_state *state, size_t n, const double *x, pg_rows *rows,
                                size_t **at)
 {

@@ -1,54 +1,57 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Places of a lattice that see their nodes alike, sampled without families of their own.
+ * Sampling at positions of a lattice whose surroundings are equal, without families of their own.
  *
- * The norms of an error ask for a field at all Gauss points of all cells. On a lattice the same few places
- * come again in cell after cell: what a place sees follows from where it stands in its cell, and from which
+ * The norms of an error need a field at all Gauss points of all cells. On a lattice the same few positions
+ * recur in cell after cell: the support of a position follows from where it lies in its cell, and from which
  * vertices around the cell are points, of which volumes. Both are keys:
  *
- *     1. The pattern of a cell: volumes of the vertices that any place in it could see, a block of about
- *        2 horizon / step vertices along each axis; 0: there is no point.
- *     2. The place in the cell in fractions of its steps, to 2^-40: what the shape functions of lattices
- *        are rounded to (discretization/approx/congruent.h).
+ *   1. The pattern of a cell: volumes of the vertices within reach of any position in it, a block of about
+ *      2 horizon / step vertices along each axis; 0: there is no point.
+ *   2. The position in the cell in fractions of its steps, to 2^-40: what the shape functions of lattices
+ *      are rounded to (discretization/approx/congruent.h).
  *
- * The first place of a pair of keys is evaluated like any other place and leaves its N and dN, spread over
- * the block with zeros where it sees nobody. All others are products of these rows with the values of the
- * block, which are gathered once a cell: no search, no moment matrix, no list of nodes. Sums run over the
- * block eight lanes at a time in the same order in every instruction set and on any number of threads.
+ * The first position of a pair of keys is evaluated like any other one; its N and dN are kept, spread over
+ * the block with zeros where there is no neighbour. All others are products of these rows with the nodal
+ * values of the block, which are gathered once a cell: no search, no moment matrix, no list of nodes. Sums
+ * run over the block eight lanes at a time in the same order in every instruction set and on any number of
+ * threads.
  *
- * Which places come first, and for how many rows there is room, changes the last bits of a value. Rows are
- * therefore kept as long as the same field is asked for, and no longer: what a run says of a step does not
- * depend on what it was asked before, which a resumed run was not. */
+ * Which positions come first, and for how many rows there is room, changes the last bits of a value. Rows
+ * are therefore kept only as long as the same field is sampled: the output of a step must not depend on what
+ * was sampled before, which differs in a resumed run. */
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-/* Patterns and rows that are kept at most. FEW: new rows from which on places that mostly are like no other
- * put an end to keeping. LANES: of a vector. MOST_BLOCK: vertices of a block at most. */
+/* PATTERNS, KEPT: most patterns and rows that are kept. FEW: number of rows from which on no more are kept if
+ * most positions are unlike any other. LANES: of a vector. MOST_BLOCK: most vertices of a block. */
 enum { PATTERNS = 1024, KEPT = 16384, FEW = 2048, LANES = 8, MOST_BLOCK = 1024 };
-/* Numbers of kept rows and patterns at most: 64 MB. */
+/* Doubles that kept rows and patterns may hold at most: 64 MB. */
 static const size_t room = 8u << 20;
-/* Fractions of a step are told apart by this much. */
+/* Fractions of a step are rounded to 1 / finest before they are compared. */
 static const double finest = 0x1p40;
 
-/* Where a place stands: fractions of a cell (2^-40), and the pattern of that cell. used: 1: known, -1: its
- * rows are no good for others. */
+/* Key of a position: fractions of a cell (units of 2^-40), and the pattern of that cell. used: 1: its rows
+ * are known, -1: they cannot serve other positions, 0: not evaluated yet. */
 typedef struct { double part[3]; size_t pattern; int used; } key;
 
 struct galerkin_alike {
     int      dim;
-    double   low[3], inverse[3];                       /* of the lattice, m and 1/m */
-    const pg_between *between;                         /* what parts points; NULL: nothing does */
-    /* Vertices of the padded lattice along each axis; first and number of those of a block. */
+    double   low[3], inverse[3];                       /* of the lattice: lower corner, m; 1 / step, 1/m */
+    const pg_between *between;                   /* bodies or gaps that separate points; NULL: nothing does */
+    /* Along each axis: vertices of the padded lattice; first vertex of a block relative to its cell, and
+     * number of vertices of a block. */
     long     count[3], first[3], width[3];
     int     *node;                                     /* at each vertex of the padded lattice; -1: none */
-    size_t   block, lanes, *offset;  /* vertices of a block, rounded up to lanes; where they are */
+    /* vertices of a block; the same rounded up to lanes; offsets of the vertices */
+    size_t   block, lanes, *offset;
     size_t   npattern, nkey, cap;
     double  *pattern;                                  /* block numbers each */
     int     *at_pattern, *at_key;                      /* tables by hash; 0: empty, else number + 1 */
     key     *key;
-    double  *rows;                                     /* (1 + dim) x lanes of each key: N, dN by axes */
-    size_t   asked;                                    /* places so far */
+    double  *rows;                                    /* for each key (1 + dim) x lanes: N, then dN by axes */
+    size_t   asked;                                    /* positions sorted so far */
     uint64_t field;                                    /* fingerprint of the field that is sampled */
 };
 
@@ -61,7 +64,7 @@ static long vertex_of (const galerkin_alike *a, int axis, double x, double *away
     return (long) whole;
 }
 
-/* Lays the padded lattice over the points. 0: they are no lattice, or one that is mostly empty. */
+/* Lays the padded lattice over the points. Returns 0 if they form no lattice, or one that is mostly empty. */
 static int lay (galerkin_alike *a, const pg_problem *p)
 {
     double boxes = 1, most = 64 * (double) p->cloud.n + 4096;
@@ -71,7 +74,8 @@ static int lay (galerkin_alike *a, const pg_problem *p)
         double step = p->cloud.step[k], reach = p->form.approx.horizon / step * (1 + 1e-7), away;
         if (!(step > 0) || !(reach < 64)) return 0;
         a->low[k] = p->cloud.low[k], a->inverse[k] = 1 / step;
-        /* A place at 0 <= f < 1 sees from f - reach to f + reach, with closed kernels the ends as well. */
+        /* A position at fraction 0 <= f < 1 has the support f - reach to f + reach, including its ends for
+         * closed kernels. */
         long ends = p->form.approx.kernel->closed ? (long) ceil (reach) + 1 : (long) ceil (reach - 1e-6);
         a->first[k] = 1 - ends, a->width[k] = 2 * ends;
         a->count[k] = vertex_of (a, k, p->cloud.high[k], &away) + 1 + 2 * (a->width[k] + 1);
@@ -91,7 +95,7 @@ static size_t number_of (const galerkin_alike *a, const long *at)
     return number;
 }
 
-/* Points at their vertices; 0: one is away from any. */
+/* Enters the number of each point at its vertex. Returns 0 if a point lies away from all vertices. */
 static int place_nodes (galerkin_alike *a, const pg_problem *p)
 {
     size_t dim = (size_t) a->dim;
@@ -108,7 +112,7 @@ static int place_nodes (galerkin_alike *a, const pg_problem *p)
     return 1;
 }
 
-/* Steps from the first vertex of a cell to those of its block, x fastest: ascending as nodes are. */
+/* Offsets from the first vertex of a block to all its vertices, x fastest: ascending as nodes are. */
 static void lay_block (galerkin_alike *a)
 {
     size_t e = 0, along_y = (size_t) a->count[0], along_z = along_y * (size_t) a->count[1];
@@ -128,8 +132,8 @@ void galerkin_alike_free (galerkin_alike **alike)
     *alike = NULL;
 }
 
-/* Left NULL where places are not alike: other points than those of a whole lattice, methods that expand about
- * nodes, plain runs. */
+/* *out stays NULL where positions cannot share rows: pg_approx.congruent is 0, points are graded or no
+ * complete lattice, or the approximation expands about nodes. */
 pg_status galerkin_alike_create (galerkin_alike **out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -155,7 +159,8 @@ done:
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
-/* The field d of ndof numbers is sampled next: another one begins without rows. */
+/* Announces that the field d (ndof) is sampled next. If it differs from the last one, all kept rows are
+ * dropped. */
 void galerkin_alike_begin (galerkin_alike *a, size_t ndof, const double *d)
 {
     uint64_t field = pg_fingerprint_numbers (ndof, ndof, 1, d);
@@ -168,8 +173,8 @@ void galerkin_alike_begin (galerkin_alike *a, size_t ndof, const double *d)
     if (a->rows) memset (a->rows, 0, a->cap * (size_t) (1 + a->dim) * a->lanes * sizeof *a->rows);
 }
 
-/* The cell that a place lies in: number of the first vertex of its block, and the place in the cell. 0: so
- * far outside that the block is not there. */
+/* Finds the cell that position x lies in: number of the first vertex of its block, and position in the cell
+ * (part). Returns 0 if x is so far outside that the padded lattice does not hold the block. */
 static int cell_of (const galerkin_alike *a, const double *x, size_t *first, double *part)
 {
     long at[3];
@@ -183,7 +188,8 @@ static int cell_of (const galerkin_alike *a, const double *x, size_t *first, dou
     return 1;
 }
 
-/* Number of the pattern of a block; PATTERNS: there are too many. */
+/* Number of the pattern of the block that begins at vertex `first`, entered if it is new; PATTERNS: there are
+ * too many. */
 static size_t pattern_of (galerkin_alike *a, const double *volume, size_t first)
 {
     double seen[MOST_BLOCK], *own = a->pattern + a->npattern * a->block;
@@ -202,8 +208,8 @@ static size_t pattern_of (galerkin_alike *a, const double *volume, size_t first)
     return a->npattern - 1;
 }
 
-/* May anything part the points of the block about the cell of x? What a place sees then does not follow from
- * where points are. */
+/* May a slot or gap separate points of the block about the cell of x? Then the support of a position does not
+ * follow from the positions of points alone. */
 static int may_be_parted (const galerkin_alike *a, const double *x)
 {
     double low[3], high[3];
@@ -216,7 +222,7 @@ static int may_be_parted (const galerkin_alike *a, const double *x)
     return pg_between_look (a->between, low, high, &seen);
 }
 
-/* Number of a key, made if it is not known; KEPT: no more are. */
+/* Number of a key, entered if it is new; KEPT: no more keys are entered. */
 static size_t key_of (galerkin_alike *a, const key *wanted)
 {
     size_t slot = pg_fingerprint_numbers (wanted->pattern, 3, 1, wanted->part) % (2 * KEPT);
@@ -233,7 +239,7 @@ static size_t key_of (galerkin_alike *a, const key *wanted)
     return a->nkey - 1;
 }
 
-/* Room for the rows of all keys that there are. */
+/* Makes room for the rows of all keys entered so far. */
 static pg_status grow (galerkin_alike *a)
 {
     pg_status status = PG_OK;
@@ -247,8 +253,9 @@ done:
     return status;
 }
 
-/* Which kept row each place can use; -1: none, as it is like no other, or the first of its kind: these are
- * listed in `rest`, with the key that they shall leave their rows for in `leaves` (-1: none). */
+/* which (n): the kept row that each position can use; -1: none, as no other position is like it, or as it is
+ * the first of its kind. The latter positions are listed in `rest`, and `leaves` has the key for which their
+ * rows are to be kept (-1: none). */
 pg_status galerkin_alike_sort (galerkin_alike *a, const double *volume, size_t n, const double *x,
                                int *which, size_t *rest, int *leaves, size_t *nrest)
 {
@@ -274,8 +281,8 @@ pg_status galerkin_alike_sort (galerkin_alike *a, const double *volume, size_t n
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Spreads row `at` of r, of a place at x, over the block of key k. A node outside the block, or a basis that
- * is not whole, and nobody uses it. */
+/* Stores row `at` of r, of a position x, spread over the block of key k. If a node lies outside the block, or
+ * the basis is not full, the row is marked as unusable for others. */
 void galerkin_alike_keep (galerkin_alike *a, int k, const pg_rows *r, size_t at, const double *x)
 {
     size_t first, dim = (size_t) a->dim, e = r->family.start[at], last = r->family.start[at + 1];
@@ -300,8 +307,8 @@ static inline double total (const eight *s)
     return (((*s)[0] + (*s)[1]) + ((*s)[2] + (*s)[3])) + (((*s)[4] + (*s)[5]) + ((*s)[6] + (*s)[7]));
 }
 
-/* out[r * dim + c] = row r times component c of the block's values: r = 0 the displacement, then its
- * derivatives along the axes. */
+/* out[r * dim + c] = row r of the shape functions times component c of the block's values: r = 0 gives the
+ * displacement, r > 0 its derivatives along the axes. */
 static inline __attribute__ ((always_inline)) void multiply_rows (size_t dim, size_t lanes,
                                                                   const double *rows, const double *value,
                                                                   double *out)
@@ -337,8 +344,8 @@ static void gather (const galerkin_alike *a, size_t first, const double *d, doub
     }
 }
 
-/* Displacement and its gradient H[c * dim + k] = du_c/dx_k at a place of key k. Values: scratch of the
- * thread, of the block that begins at *held. */
+/* Displacement u and its gradient H[c * dim + k] = du_c/dx_k at a position x of key k. value: scratch of the
+ * thread with the nodal values of the block that begins at vertex *held. */
 void galerkin_alike_values (const galerkin_alike *a, int k, const double *x, const double *d, double *value,
                             size_t *held, double *u, double *H)
 {

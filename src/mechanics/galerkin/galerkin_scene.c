@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Galerkin form as a scene asks for it: keys, stabilisation, and how displacements are prescribed
+ * The options of the Galerkin form in a scene: keys, stabilisation, and how displacements are prescribed
  * (Nitsche, elimination or penalty). */
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include <math.h>
@@ -36,7 +36,8 @@ static const pg_key keys[] = {
 };
 const pg_key_table galerkin_keys = { "force", keys, sizeof keys / sizeof *keys };
 
-/* Stabilisation is for nodal integration of an approximation that expands about the node. */
+/* Reads the options. Stabilisation applies to nodal integration of an approximation that expands about the
+ * node. */
 pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -58,7 +59,8 @@ pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
         pg_scene_fault (scene, "method.integration",
                         "a body of explicit points has no background cells: use nodal, or give shapes as its "
                         "surface (body)");
-    /* an expansion about the node itself does not resist what changes from node to node (theory D4) */
+    /* expanding about the node itself leaves displacements that alternate from node to node free (theory
+     * D4) */
     int wanted = p->form.approx.type->interpolates && p->form.integration->at_nodes;
     int asked = strcmp (stabilization, "silling") == 0;
     if (asked && !wanted)
@@ -71,7 +73,7 @@ done:
     return status;
 }
 
-/* The word of the scene, or by whether there are facets. */
+/* The method that the scene names; auto: by whether there are facets. */
 static pg_essential essential_of (const char *how, int facets)
 {
     if (strcmp (how, "transformation") == 0) return PG_ESSENTIAL_TRANSFORMATION;
@@ -79,7 +81,8 @@ static pg_essential essential_of (const char *how, int facets)
     return strcmp (how, "nitsche") == 0 || facets ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
 }
 
-/* Shape functions that do not interpolate couple all points of a set that are eliminated, on all ranks. */
+/* Fails on several ranks: shape functions that do not interpolate couple all points of a set that are
+ * eliminated, across ranks. */
 static void check_elimination (const pg_problem *p, const pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64];
@@ -91,9 +94,9 @@ static void check_elimination (const pg_problem *p, const pg_load *load, const p
                     pg_rank_count ());
 }
 
-/* Unless the scene says how: Nitsche's terms on facets; a penalty on the points of a set with an inside,
- * which its facets would leave free, and of a set too large to eliminate; else elimination, always where
- * the shape functions are 1 at their own nodes. */
+/* Chooses how a load prescribes displacements, unless the scene says so: Nitsche's terms on facets; a penalty
+ * on sets with interior points, which facets would leave free, and on sets too large to eliminate; else
+ * elimination, always where the shape functions are 1 at their own nodes. */
 void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     const galerkin_options *o = p->options;
@@ -116,7 +119,8 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
         load->penalty = fmin (o->penalty, o->nitsche);
 }
 
-/* The estimate knows Nitsche's terms; supports by a penalty are not in it. */
+/* Stiffness of supports for the estimate of the time step, in units of E / spacing: Nitsche's factor;
+ * supports by a penalty are not included. */
 double galerkin_support_stiffness (const pg_problem *p)
 {
     int any = 0;
@@ -126,7 +130,8 @@ double galerkin_support_stiffness (const pg_problem *p)
     return any ? ((const galerkin_options *) p->options)->nitsche : 0;
 }
 
-/* Limits of bonds between unlike ends hold for the mean of their supports. */
+/* Sets `graded`: in graded clouds limits of a bond between ends of unlike supports are scaled by the mean of
+ * both. */
 pg_status galerkin_limits (const pg_problem *p, size_t material, pg_criterion_setting *setting)
 {
     (void) material;
@@ -134,7 +139,7 @@ pg_status galerkin_limits (const pg_problem *p, size_t material, pg_criterion_se
     return PG_OK;
 }
 
-/* Could the dilatation be projected? By the keys of the scene, before materials are read. */
+/* Could the dilatation be projected? Decided by the keys of the scene, before materials are read. */
 static int projects (const pg_scene *scene)
 {
     const char *mode = pg_scene_text (scene, "method.dilatation"), *name;
@@ -146,17 +151,17 @@ static int projects (const pg_scene *scene)
     return yes;
 }
 
-/* Ghost layers, in spacings: how far wider supports (pg_rows_widen) reach beyond a horizon (at most 1.6 in
- * 130 random bodies at horizons of 1.5 to 3.5, at most 3 beside cracks of 80 more); in cells, those between a
- * host and its small cut cells (pg_consistency) and what these need, twice. */
+/* Widths of ghost layers in spacings: WIDER, WIDER_AT_CRACKS: how far wider supports (pg_rows_widen) reach
+ * beyond a horizon (at most 1.6 in 130 random bodies at horizons of 1.5 to 3.5, at most 3 beside cracks of 80
+ * more). HOSTS, in cells: from a host to its small cut cells (pg_consistency) and to their neighbours. */
 enum { WIDER = 2, WIDER_AT_CRACKS = 4, HOSTS = 2 };
 
-/* Of ranks that share the body. The row of an owned node is made of the points within one horizon of it,
- * whose shape functions lean on nodes within one horizon of theirs. With consistent integration all points
- * of a cell belong together, with the cells beside it. Cells around owned nodes are elements of the
- * preconditioner. Patches of the dilatation are two cells wide, or three points, or twice as much where one
- * has joined another, and those at the end of what is held are no whole ones, with those that they have
- * joined. */
+/* Width of the ghost layers of ranks that share the body, in cells. The row of an owned node is made of the
+ * points within one horizon of it, whose shape functions involve nodes within one horizon of theirs. With
+ * consistent integration all points of a cell belong together, with the neighbouring cells. Cells around
+ * owned nodes are elements of the preconditioner. Patches of the dilatation are two cells wide, or three
+ * points, or twice as much where two have joined; those at the end of the ghost layer are incomplete, as are
+ * those that they have joined. */
 double galerkin_ghost_cells (const pg_scene *scene, double *beyond)
 {
     int patches = projects (scene),
@@ -167,7 +172,7 @@ double galerkin_ghost_cells (const pg_scene *scene, double *beyond)
     return cells + 1 + wider;
 }
 
-/* One line for the plan. */
+/* One line for the summary of the run. */
 void galerkin_words (const pg_problem *p, char *text, size_t size)
 {
     snprintf (text, size, "%s, %s basis, %s kernel, %s integration", p->form.approx.type->name,

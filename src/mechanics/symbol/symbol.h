@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to the symbol folder: the box of (2 half + 1)^dim points around one at the origin,
- * in which the lattice is measured (box.c). */
+ * Private to the symbol folder: the box of (2 half + 1)^dim lattice points around one at the origin, on
+ * which the force is measured (box.c). */
 #ifndef PG_SYMBOL_PRIVATE_H
 #define PG_SYMBOL_PRIVATE_H
 #include "perigal/symbol.h"

@@ -17,9 +17,9 @@ void galerkin_basis_free (galerkin *g)
     pg_sparse_clear (&g->supports.T);
 }
 
-/* The points whose displacement along axis k is prescribed by elimination, ascending, each with the load
- * that prescribes it. role (n): that load's number at these points, -1 at all others. Where several loads
- * name a point the first one of the scene counts. */
+/* Finds the points whose displacement along axis k is prescribed by elimination (slaves), ascending, each
+ * with the load that prescribes it. role (n): that load's number at these points, -1 at all others. Where
+ * several loads prescribe a point the first one of the scene counts. */
 static pg_status find_slaves (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
@@ -44,10 +44,10 @@ done:
     return status;
 }
 
-/* Nodes that slaves see and that are no slaves themselves; none where shape functions interpolate (N is
- * the identity, NOSB), as slaves take their values directly then. The inverse of C_s is full, hence the
- * limit on the number of slaves. role: of slaves their load, of the others -1, and -2 once they are found
- * here. */
+/* Finds the masters: nodes in the families of slaves that are no slaves themselves; none where shape
+ * functions interpolate (N is the identity, NOSB), as slaves take their values directly then. The inverse of
+ * C_s is full, hence the limit on the number of slaves. role: of slaves their load, of others -1, set to -2
+ * for masters. */
 static pg_status find_masters (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
@@ -74,8 +74,8 @@ done:
     return status;
 }
 
-/* The matrix T: a column for each free unknown, ascending, with 1 in its own row and, for masters, the
- * entries -X of all slaves of the same component. The pattern is fixed for the run; values follow the
+/* Makes the matrix T: a column for each free unknown, ascending, with 1 in its own row and, for masters, the
+ * entries -X of all slaves of the same component. The pattern is fixed for the run; values change with the
  * bonds (fill_T). */
 static pg_status make_T (galerkin *g)
 {
@@ -112,8 +112,8 @@ done:
     return status;
 }
 
-/* Writes -X = -C_s^-1 C_m into T. In the column of a master its own row, with the value 1, stands among
- * those of the slaves, ordered by row. */
+/* Writes -X = -C_s^-1 C_m into T. In the column of a master its own entry, 1, stands among those of the
+ * slaves, ordered by row. */
 static void fill_T (galerkin *g)
 {
     size_t dim = (size_t) g->dim;
@@ -134,7 +134,7 @@ static void fill_T (galerkin *g)
     }
 }
 
-/* Slaves and masters of each component; g->has_T: there is anything to eliminate. */
+/* Finds slaves and masters of each component; has_T: there is something to eliminate. */
 pg_status galerkin_basis_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -153,7 +153,7 @@ done:
     return status;
 }
 
-/* C_s, the shape functions of slaves at slaves, by its transpose in compressed columns: column j is row j
+/* C: the transpose of C_s, the shape functions of slaves at slaves, in compressed columns: column j is row j
  * of C_s. index (n): position of a slave among the slaves, -1 of all others. */
 static pg_status slave_matrix (const galerkin *g, const elimination *e, const int *index, pg_sparse *C)
 {
@@ -176,9 +176,9 @@ done:
     return status;
 }
 
-/* Inverse of C_s (row by row, by a sparse factor) and X = C_s^-1 C_m of one component for the bonds that
- * live now. C_s is neither symmetric nor definite, so that the solver is the first that takes general
- * matrices. */
+/* Computes the inverse of C_s (row by row, by a sparse factor) and X = C_s^-1 C_m of one component for the
+ * bonds that are intact now. C_s is neither symmetric nor definite: the solver is the first that takes
+ * general matrices. */
 static pg_status update_side (galerkin *g, elimination *e, int *index)
 {
     pg_status status = PG_OK;
@@ -216,8 +216,8 @@ done:
     return status;
 }
 
-/* All components, then T. A singular C_s means that the shape functions cannot take the prescribed
- * values: the message names other ways. */
+/* Updates all components, then T. A singular C_s means that the shape functions cannot take the prescribed
+ * values: the message names other methods. */
 pg_status galerkin_basis_update (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -238,8 +238,8 @@ done:
     return status;
 }
 
-/* The values of T are those of the shape functions at the prescribed nodes; where these interpolate they are
- * constants. */
+/* 1: T changes with the shape functions of one of the listed nodes (ascending); never where these
+ * interpolate. */
 int galerkin_basis_touched (const galerkin *g, size_t count, const size_t *list)
 {
     for (int k = 0; k < g->dim; k++) {

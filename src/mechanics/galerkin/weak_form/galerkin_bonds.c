@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the bonds show: utilisation of each live bond from stretch or mean principal stress of its two ends
+ * Evaluation of bonds: utilisation of each intact bond from stretch or mean principal stress of its two ends
  * (Cui 2022 section 1.1, theory F2: displacements and stresses are those of the shape functions, not the
- * coefficients), overlap, census. */
+ * coefficients), overlap of crack faces, census. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -16,9 +16,9 @@ void galerkin_principal (galerkin *g, int set, size_t p)
     m->s1[set][p] = principal[0], m->s3[set][p] = principal[2];
 }
 
-/* What some bonds show against one law: utilisation, and the factor by which a proportional load may grow;
- * `to`: their places in the arrays. Of two laws that judge one bond the weaker decides: the larger
- * utilisation, the smaller factor. */
+/* Judges some bonds by one criterion: utilisation, and the factor by which a proportional load may grow;
+ * `to`: their positions in the arrays. Where two criteria judge one bond the larger utilisation and the
+ * smaller factor count. */
 static void judge_by (const galerkin_judging *s, const pg_criterion *c, const pg_bond_measures *m,
                       const size_t *to)
 {
@@ -35,7 +35,7 @@ static void judge_by (const galerkin_judging *s, const pg_criterion *c, const pg
         if (!(out[k] > s->factor[to[k]])) s->factor[to[k]] = out[k];
 }
 
-/* Of a batch those bonds that have an end in a material, copied together and judged by its law. */
+/* Judges by the criterion of a material those bonds of a batch that have an end in it. */
 static void judge_material (const galerkin_judging *s, int material, pg_bond_measures m, const size_t *bond,
                             const size_t *point, const size_t *to)
 {
@@ -89,7 +89,7 @@ size_t galerkin_limits_of (const galerkin *g, int set, size_t count, const size_
     return n;
 }
 
-/* Mean of both ends: the same from either end. */
+/* Mean of the relative supports of both ends, so that it is the same from either end. */
 double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry)
 {
     const pg_cloud *c = &g->problem->cloud;
@@ -97,9 +97,9 @@ double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry)
     return 0.5 * (pg_problem_spacing (g->problem, set, point) + c->size[node]) / c->h;
 }
 
-/* Measures `count` live bonds and hands them to the laws: bond vector xi and relative displacement eta
- * (m), principal stresses as the mean of both ends (Pa), and in graded clouds the local spacing over h,
- * by which limits of stretch scale. Most batches are of one material and need no second copy. */
+/* Judges `count` intact bonds: bond vector xi and relative displacement eta (m), principal stresses as the
+ * mean of both ends (Pa), and in graded clouds the local spacing over h, by which limits of stretch scale.
+ * Most batches are of one material and need no second copy. */
 void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond, const size_t *point,
                      const size_t *to)
 {
@@ -141,8 +141,8 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
     for (size_t k = 0; k < limits; k++) judge_material (s, limit[k], m, bond, point, to);
 }
 
-/* Live bonds of a range of points in batches; bonds that never break have utilisation 0 and an infinite
- * factor. */
+/* Judges the intact bonds of a range of points in batches; bonds that never break have utilisation 0 and an
+ * infinite factor. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const galerkin_judging *s = context;
@@ -164,7 +164,8 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     if (count) galerkin_judge (s, count, bond, point, to);
 }
 
-/* Which bonds are looked at, once for all: those of no length and those of exempt ends never break. */
+/* Marks, on the first call, the bonds that a criterion applies to: bonds of zero length and those of exempt
+ * ends never break. */
 pg_status galerkin_find_judged (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -192,7 +193,8 @@ static void principal_points (void *context, size_t first, size_t last, int thre
     for (size_t p = first; p < last; p++) galerkin_principal (c->g, c->set, p);
 }
 
-/* Of every bond of every set. Stresses at all sets first, as a bond joins a point of its set with a node. */
+/* Utilisation of every bond of every set. Stresses at all sets first, as a bond joins a point of its set with
+ * a node. */
 pg_status galerkin_utilisation (galerkin *g, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor)
 {
@@ -214,7 +216,7 @@ done:
     return status;
 }
 
-/* Bonds of a group: stresses and displacements are measured at their ends alone. */
+/* Judges the bonds of a group: stresses and displacements are measured at their ends only. */
 static pg_status judge_group (galerkin *g, const pg_state *state, const pg_bond_group *group, const double *d,
                               double *utilisation, char *kind, double *factor)
 {
@@ -244,7 +246,8 @@ done:
     return status;
 }
 
-/* Stretch of a bond xi along a unit vector n by the strain at p and j in the mean, m: n . eps xi. */
+/* Elongation of the bond xi from p to j along a unit vector n by the mean strain of both ends, m: n . eps
+ * xi. */
 static double elastic_along (const galerkin *g, size_t p, size_t j, const double *xi, const double *n)
 {
     static const int shear[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
@@ -259,8 +262,8 @@ static double elastic_along (const galerkin *g, size_t p, size_t j, const double
     return sum;
 }
 
-/* By how much the ends of a bond xi from p to j have come together along n, a unit vector from p's side to
- * that of j, beyond what the material on both sides has shortened, m. */
+/* By how much the ends of a bond xi from p to j have approached along n, a unit vector from p's side to that
+ * of j, beyond the elastic shortening of the material on both sides, m. */
 static double overlap_along (const galerkin *g, size_t p, size_t j, const double *xi, const double *n)
 {
     size_t dim = (size_t) g->dim;
@@ -270,9 +273,9 @@ static double overlap_along (const galerkin *g, size_t p, size_t j, const double
     return approach - fmax (-elastic_along (g, p, j, xi, n), 0);
 }
 
-/* The overlap of crack faces by one dead bond. Where a known crack cuts the bond the normal of that crack
- * counts, not the bond: faces that slide past each other bring the ends of oblique bonds nearer, and do not
- * overlap; such bonds are left out. Of single bonds that broke only their own direction is known. */
+/* The overlap of crack faces by one broken bond, m. Where a known crack cuts the bond, the normal of that
+ * crack counts, not the bond's direction: sliding faces bring the ends of oblique bonds nearer without
+ * overlap; such bonds are left out. Of single broken bonds only their own direction is known. */
 static double overlap_by_bond (const galerkin *g, const pg_state *state, size_t p, size_t j, const double *xi)
 {
     size_t dim = (size_t) g->dim;
@@ -288,16 +291,16 @@ static double overlap_by_bond (const galerkin *g, const pg_state *state, size_t 
     return overlap_along (g, p, j, xi, n);
 }
 
-/* How far the ends of a dead bond have come towards each other beyond the elastic shortening of the
- * material on both sides, the largest, m: without contact crack faces may pass through each other, and
- * this says whether they do. Only short node-node bonds (1.5 spacings) are looked at, between ends that
- * still carry stress. */
+/* The largest overlap of the ends of a broken bond: their approach beyond the elastic shortening of the
+ * material on both sides, m. Without contact crack faces may pass through each other, and this shows whether
+ * they do. Only node-node bonds up to 1.5 spacings are examined, between ends that still carry stress. */
 static double largest_overlap (galerkin *g, const pg_state *state, const double *d)
 {
     const pg_rows *r = &g->rows[PG_NODES];
     size_t dim = (size_t) g->dim;
     double worst = 0;
-    int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only */
+    /* a bond between ends of unlike support may exist in one family only */
+    int both = g->problem->cloud.size != NULL;
     galerkin_measure (g, PG_NODES, d);
     for (size_t p = 0; p < r->n; p++) {
         if (!pg_cloud_owns (&g->problem->cloud, p)) continue;
@@ -317,7 +320,8 @@ static double largest_overlap (galerkin *g, const pg_state *state, const double 
     return worst;
 }
 
-/* Joins the nodes that evaluation points see together; of a rank by the points that see nodes of its own. */
+/* Joins the nodes that have bonds to the same evaluation point; on a rank only by points with bonds to its
+ * own nodes. */
 void galerkin_join (void *self, int *parent)
 {
     const galerkin *g = self;
@@ -337,8 +341,8 @@ void galerkin_join (void *self, int *parent)
     }
 }
 
-/* Evaluation points without a gradient, which carry no stress, and where the first of them is: the first of
- * this rank, or of the lowest rank that has one. */
+/* Counts evaluation points without a gradient, which carry no stress. at: position of the first one, m, on
+ * this rank or on the lowest rank that has one. */
 static pg_status count_flat (const galerkin *g, size_t *count, double *at)
 {
     pg_status status = PG_OK;
@@ -359,8 +363,8 @@ done:
     return status;
 }
 
-/* Points of evaluation without a gradient; nodes that no evaluation point sees together with another one;
- * parts of the body that evaluation points no longer join, the largest not counted. */
+/* Counts evaluation points without a gradient; nodes that share no evaluation point with another node; and
+ * fragments: parts of the body that evaluation points no longer join, except the largest. */
 pg_status galerkin_census (void *self, pg_census *out)
 {
     pg_status status = PG_OK;

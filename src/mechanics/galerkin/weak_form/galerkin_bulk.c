@@ -4,13 +4,14 @@
 #include "galerkin.h"
 #include <string.h>
 
-/* Of a point of a bond set. */
+/* The material of a point of a bond set. */
 const pg_material *galerkin_material (const galerkin *g, int set, size_t p)
 {
     return pg_problem_law (g->problem, set, p);
 }
 
-/* strain += B_a d for one node: Voigt xx yy zz xy yz zx, engineering shears */
+/* strain += B_a d for one node a: q: its gradient of N, 1/m. Voigt order xx yy zz xy yz zx, engineering
+ * shears. */
 static void add_strain (int dim, const double *q, const double *d, double *e)
 {
     if (dim == 1) e[0] += q[0] * d[0];
@@ -22,8 +23,8 @@ static void add_strain (int dim, const double *q, const double *d, double *e)
     }
 }
 
-/* In the plane all four entries of a block lie in one register: row by row they are products of D B_a
- * with q[0] and q[1]. */
+/* 2D: all four entries of a block lie in one register: row by row they are products of D B_a with q[0] and
+ * q[1]. */
 PG_WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
 {
     const four x = { DB[0], DB[2], DB[3], DB[5] }, y = { DB[2], DB[1], DB[5], DB[4] };
@@ -31,8 +32,8 @@ PG_WIDE static void add_plane_blocks (const double *DB, size_t m, const double *
     for (size_t n = 0; n < m; n++, q += 2) block[n] += q[0] * x + q[1] * y;
 }
 
-/* In space a block has nine entries, and each is a sum over the components of q: eight of them are taken at
- * once, at the place of the block, whatever its alignment. */
+/* 3D: a block has nine entries, and each is a sum over the components of q: eight of them are computed at
+ * once and stored in the block, whatever its alignment. */
 PG_WIDEST static void add_solid_blocks (const double *DB, size_t m, const double *q, double *k)
 {
     static const int of[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };  /* s of f[c] with q[l] */
