@@ -4,8 +4,8 @@
 #include "point_boundary.h"
 #include <string.h>
 
-/* Adds the force on one unknown of a point, and its moment about the origin, to the reactions of a load. For
- * rotations the force is a moment already and has no lever arm. */
+/* Adds the force on one unknown of a point, and its moment about pg_load.about, to the reactions of a load.
+ * For rotations the force is a moment already and has no lever arm. */
 static void add_reaction (const point_boundary *s, double *reaction, int load, int component, size_t point,
                           double force)
 {

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Galerkin force: R = P - sum_p w_p B_p' sigma_p on live bonds, K = sum_p w_p B_p' D B_p (Cui 2022
- * section 3; theory F). After a break only the rows of touched points and of the nodes they see are
- * redone. Its entries stand here but for matrix and K x (weak_form/galerkin_operator.c), judge
- * (weak_form/galerkin_bonds.c), field (galerkin_field.c), sample (galerkin_sample.c). */
+ * The Galerkin force: R = P - sum_p w_p B_p' sigma_p over intact bonds, K = sum_p w_p B_p' D B_p (Cui 2022
+ * section 3; theory F). After a break only the rows of points that lost bonds and of the nodes in their
+ * families are recomputed. Here are the entries of pg_force_galerkin except matrix and K x
+ * (weak_form/galerkin_operator.c), judge (weak_form/galerkin_bonds.c), field (galerkin_field.c), sample
+ * (galerkin_sample.c). */
 #include "mechanics/galerkin/weak_form/galerkin.h"
 #include "mechanics/boundary/one_sided.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The unknowns of a point. They are coefficients of shape functions; what is recorded is the displacement
- * that they make. */
+/* Names the field that is recorded: the displacement. The unknowns themselves are coefficients of shape
+ * functions. */
 static size_t galerkin_fields (const void *self, size_t max, pg_field *out)
 {
     const galerkin *g = self;
@@ -57,9 +58,9 @@ static void galerkin_free (void **self)
     *self = NULL;
 }
 
-/* Values of one bond set on the geometry of the problem, which is borrowed: rows of shape functions; strain,
- * stress (nv), stress across a plane, displacement, principal stresses; `seen`: the displacement these belong
- * to. */
+/* Allocates the values of one bond set on the geometry of the problem, which is borrowed: rows of shape
+ * functions; strain and stress (nv a point), stress across a plane, displacement, principal stresses; seen:
+ * the displacement field that these belong to. */
 static pg_status create_set (galerkin *g, int s)
 {
     galerkin_measured *m = &g->measured;
@@ -82,8 +83,9 @@ done:
     return status;
 }
 
-/* Rows of shape functions are filled by the first refresh, when it is known which bonds live. Consistent
- * integration, boundary, elimination, dilatation and sums lean on the rows of all sets, in this order. */
+/* Creates the force. Rows of shape functions are filled by the first refresh, when it is known which bonds
+ * are intact. Consistent integration, boundary, elimination, dilatation and sums need the rows of all sets,
+ * in this order. */
 static pg_status galerkin_create (void **self, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -110,7 +112,8 @@ done:
 }
 
 /* ---- refresh ------------------------------------------------------------------------------------------- */
-/* Touched points of each set (ascending, once each) from the dead bonds, which are ascending as well. */
+/* Lists in g->list the points of each set that own one of the broken bonds, each once; bonds and lists are
+ * ascending. */
 static void touched_points (const galerkin *g, const pg_changes *changes, size_t *count)
 {
     for (int s = 0; s < PG_BOND_SETS; s++) count[s] = 0;
@@ -118,14 +121,14 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
         int s;
         size_t point;
         pg_problem_locate (g->problem, changes->bond[c], &s, &point);
-        /* changes are ascending */
+        /* bonds are ascending, so that equal points follow each other */
         if (count[s] == 0 || g->list[s][count[s] - 1] != point) g->list[s][count[s]++] = point;
     }
 }
 
-/* Shape functions of points that lost a bond (changes NULL: of all) are evaluated anew, then all that
- * depends on them: consistent derivatives, patches, stale rows of K, elimination. Strains measured at the
- * last displacement stay known: only those of touched points are taken again. */
+/* Reevaluates the shape functions of points that lost a bond (changes NULL: of all), then all that depends on
+ * them: consistent derivatives, dilatation patches, stale rows of K, elimination. Strains measured at the
+ * last displacement stay valid; only those of points that lost a bond are measured anew. */
 pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
@@ -136,7 +139,7 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
     galerkin_change_begin (g, !changes);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t n = changes ? count[s] : g->rows[s].n;
-        /* pressures of patches reach further */
+        /* pressures of dilatation patches change at further points too */
         int known = changes && g->measured.fresh[s] && !g->dilatation;
         g->measured.fresh[s] = 0;
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], -1));
@@ -153,7 +156,8 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
     if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, count));
-    if (!changes) galerkin_eigen_at (g, state->time);  /* a run that goes on asks for stresses of its state */
+    /* a resumed run needs stresses at the time of its state */
+    if (!changes) galerkin_eigen_at (g, state->time);
     if (!changes) g->stiffness.all_stale = 1, g->stiffness.revision++;
     else galerkin_mark_stale (g, count);
     if (g->supports.has_T && (!changes || galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]))) {
@@ -165,8 +169,8 @@ done:
     return status;
 }
 
-/* Rows that more depends on than their own share of K x: of cells that are consistent as a whole, of patches
- * and stabilised points; of supports and loads, which lean on shape functions too. */
+/* 1: all that the touched points contribute to is their own share of K x. Not with consistent cells, patches
+ * or stabilisation, nor where supports or loads use their shape functions. */
 static int are_alone (const galerkin *g, const size_t *count)
 {
     int loaded = 0;
@@ -189,7 +193,8 @@ static pg_status galerkin_share_of (void *self, const double *x, const pg_change
 }
 
 /* ---- balance ------------------------------------------------------------------------------------------- */
-/* The largest of three forces, N, of which this rank knows its share of the squares. */
+/* The largest of the norms of three forces, N, from this rank's share of their squares, N^2; NAN: the sum
+ * over ranks failed. */
 static double largest_of (const galerkin *g, double inside, double external, double reaction)
 {
     double square[3] = { inside, external, reaction };
@@ -197,8 +202,8 @@ static double largest_of (const galerkin *g, double inside, double external, dou
     return sqrt (fmax (square[0], fmax (square[1], square[2])));
 }
 
-/* residual = loads - internal force + boundary terms, N, at displacement d and time t; reference: the
- * largest of the internal forces, the loads and the reactions, by which the residual is judged. */
+/* residual = loads - internal force + boundary terms, N, at displacement d and time t. reference: the largest
+ * norm of the internal forces, the loads and the reactions, N, with which the residual is compared. */
 static pg_status galerkin_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     pg_status status = PG_OK;
@@ -220,9 +225,9 @@ done:
     return status;
 }
 
-/* Residual and reference, N, as galerkin_balance, by K x: one pass over the shape functions instead of two.
- * Loads do not depend on d; only supports ask for it. With a projected dilatation K x has the flux through
- * supported facets already (Nitsche), which the boundary adds too. */
+/* Residual and reference, N, as galerkin_balance, but by K x: one pass over the shape functions instead of
+ * two. Loads do not depend on d; only supports need it. With a projected dilatation K x already contains the
+ * flux through supported facets (Nitsche), which the boundary terms would add again. */
 static pg_status galerkin_balance_lean (void *self, double t, const double *d, double *residual,
                                         double *reference)
 {
@@ -245,8 +250,8 @@ done:
     return status;
 }
 
-/* Lumped: density times the volume of each node, kg. Volumes of nodes sum up to that of the body, so the
- * mass is right whatever the shape functions. */
+/* Lumped mass: density times the volume of each node, kg. Volumes of nodes sum up to that of the body, so
+ * that the total mass is right whatever the shape functions. */
 static pg_status galerkin_mass (void *self, double *mass, const pg_sparse **consistent)
 {
     galerkin *g = self;
@@ -269,15 +274,15 @@ static unsigned long galerkin_revision (const void *self)
     return ((const galerkin *) self)->stiffness.revision;
 }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->stiffness.op; }
-/* How many unknowns elimination takes out. */
+/* Number of unknowns that elimination removes. */
 static size_t slaves_of (const galerkin *g)
 {
     return g->supports.side[0].n + g->supports.side[1].n + g->supports.side[2].n;
 }
 
-/* In equilibrium half the work of all pairs is what is stored, and facets are measured alone (nodes too,
- * where something acts there). Not where reactions of eliminated unknowns need forces of the whole body,
- * or a body force its displacements. */
+/* 1: the strain energy can be computed from the boundary: in equilibrium it is half the work of all pairs,
+ * and only facets need be measured (and nodes, where loads or penalties act on them). Not where reactions of
+ * eliminated unknowns need forces of the whole body, or a body force its displacements. */
 static int boundary_tells (const galerkin *g, const pg_work_balance *out, int *nodes)
 {
     int points = slaves_of (g) > 0;
@@ -300,8 +305,8 @@ static void work_of_boundary (galerkin *g, double t, const double *d, int nodes,
     for (size_t k = 0; k < out->npair; k++) out->strain += 0.5 * out->force[k] * out->displacement[k];
 }
 
-/* Pairs of force and displacement of all loads and supports, and the stored energy, after the measure of all
- * sets. Boundary terms first; what elimination prescribes follows with its reactions, for which the residual
+/* Computes the pairs of force and displacement of all loads and supports, and the stored energy, by measuring
+ * all sets. Boundary terms come first, then eliminated unknowns with their reactions, for which the residual
  * is needed (NULL: no elimination). */
 static pg_status work_of_residual (galerkin *g, double t, const double *d, const double *residual,
                                    pg_work_balance *out)
@@ -347,10 +352,9 @@ done:
     return status;
 }
 
-/* Shape functions of places that see their nodes alike (discretization/approx/congruent.h), then what
- * products spare. The
- * time saved is by the seconds that a bond costs, of one that is computed less one that is copied. The words
- * hold no counts: these begin anew when a run is resumed, whose report must be that of one undisturbed. */
+/* Reports shortcut number k (pg_force_type.spared): what was saved, why, and the estimated seconds, by
+ * measured costs of a bond; returns 0 past the last. The texts hold no counts: these begin anew when a run is
+ * resumed, whose report must equal that of an uninterrupted one. */
 static int spared (const void *self, size_t k, char *what, char *why, double *seconds)
 {
     const galerkin *g = self;
@@ -375,7 +379,7 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
     if (shared && k-- == 0) {
         snprintf (what, 96, "memory for the shape functions of every point");
         snprintf (why, 160, "points of a lattice that see their nodes alike share them");
-        *seconds = 4e-10 * 8 * (double) (2 + g->dim) * (double) shared;        /* of fresh memory, s a byte */
+        *seconds = 4e-10 * 8 * (double) (2 + g->dim) * (double) shared;     /* 4e-10 s a byte of new memory */
         return 1;
     }
     if (galerkin_again_served (g) && k-- == 0) {
@@ -391,7 +395,8 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
     return 1;
 }
 
-/* By the body's own functions, of which nodal coefficients are those of the displacement. */
+/* The jump across a crack by shape functions of the body's own approximation, whose nodal coefficients are
+ * those of the displacement. */
 static pg_status jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                        double radius, pg_jump_rows *out)
 {

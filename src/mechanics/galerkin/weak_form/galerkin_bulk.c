@@ -85,7 +85,7 @@ static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
     add_blocks (g->dim, DB, m, r->dN + first * dim, out);
 }
 
-/* B_a' D B_b w of one point, and the stabilisation. */
+/* Adds w B_a' D B_b of one point, and its stabilisation, for local node a and nodes b = 0 .. m - 1. */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -96,7 +96,8 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
     if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
 }
 
-/* B_a' D B_b w summed over all points of a cell, which share the nodes of the cell; no stabilisation. */
+/* Adds w B_a' D B_b summed over all points of a cell, which share the nodes of the cell; without
+ * stabilisation. */
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -104,17 +105,18 @@ void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, doubl
     for (size_t p = first[cell]; p < first[cell + 1]; p++) add_point (g, p, a, m, out);
 }
 
-/* After galerkin_measure. */
+/* f += internal force, N, by the stresses of the last galerkin_measure at d. */
 void galerkin_bulk_force (galerkin *g, const double *d, double *f) { galerkin_sum_stress (g, d, f); }
 
-/* K x without K. */
+/* y += K x of the bulk, without assembling K. */
 void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
 {
     galerkin_sum_tangent (g, x, y);
     if (g->dilatation) galerkin_dilatation_apply (g, x, y);
 }
 
-/* Half the work of stress on strain, and the energy of the stabilisation. */
+/* Strain energy of the bulk, J: half of stress times strain over all owned points, and that of the
+ * stabilisation. */
 double galerkin_bulk_energy (const galerkin *g, const double *d)
 {
     const pg_rows *r = &g->sums;

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What breaking changes of K. K is a sum over items: evaluation points (with consistent integration cells),
- * facet points under Nitsche's terms, nodes under a penalty, patches of the dilatation. The blocks of an
- * item that a refresh touches are subtracted before its rows are evaluated anew, and added afterwards; the
- * sum is a dense symmetric matrix on the few nodes that the items see. Nodes that an item does not move
- * (bonds that died before) are left out. */
+ * The change of K by breaking bonds. K is a sum over items: evaluation points (with consistent integration
+ * cells), facet points under Nitsche's terms, nodes under a penalty, patches of the dilatation. The blocks
+ * of an item that a refresh touches are subtracted before its rows are evaluated anew, and added afterwards;
+ * the sum is a dense symmetric matrix on the few nodes in the families of the items. Nodes whose blocks in
+ * an item are zero (bonds broken before) are left out. */
 #include "galerkin.h"
 #include <string.h>
 
-enum { MOST_UNKNOWNS = 1500 };                         /* more is no change to be told, but a new matrix */
+enum { MOST_UNKNOWNS = 1500 };                         /* above that a new matrix is cheaper */
 
 typedef void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
 
 struct galerkin_change {
-    int     lost, basis, loads;                        /* as in pg_stiffness_change; lost: not known */
-    int     handed;                                    /* the caller has it: the next refresh begins anew */
-    size_t  n, cap;                                    /* nodes; nodes that K has room for */
-    int    *node, *at;                                 /* the nodes; place + 1 of every node of the cloud */
+    int     lost, basis, loads;                 /* as in pg_stiffness_change; lost: the change is not known */
+    int     handed;                         /* the caller has read it: the next refresh begins a new record */
+    size_t  n, cap;                                    /* number of nodes; number that K has room for */
+    int    *node, *at;                           /* the nodes; position in K + 1 of every node of the cloud */
     size_t  room_node;
     double *K;  /* row-major, cap * dim numbers a row, N/m */
     double *item;  size_t room_item;                   /* blocks of one item (m x m x dim x dim) */
-    int    *place;  size_t room_place;                 /* of its nodes in K; -1: not moved by the item */
+    int    *place;  size_t room_place;      /* position in K of the item's nodes; -1: their blocks are zero */
 };
 
 /* Frees the recorded change of K, if there is one. */
@@ -32,7 +32,7 @@ void galerkin_change_free (galerkin *g)
     g->change = NULL;
 }
 
-/* Nothing has changed yet. */
+/* Clears the record: K has not changed yet. */
 static void clear (galerkin *g)
 {
     galerkin_change *c = g->change;
@@ -43,7 +43,7 @@ static void clear (galerkin *g)
     c->lost = c->basis = c->loads = c->handed = 0;
 }
 
-/* Room for `count` nodes: the rows move apart. */
+/* Makes room for `count` nodes in K, whose rows become longer. */
 static pg_status grow (galerkin *g, size_t count)
 {
     pg_status status = PG_OK;
@@ -63,7 +63,7 @@ done:
     return status;
 }
 
-/* The place of a node in K, with room made for it. */
+/* The position of a node in K, which is entered if it is new. */
 static pg_status place_of (galerkin *g, int node, int *place)
 {
     pg_status status = PG_OK;
@@ -78,7 +78,8 @@ done:
     return status;
 }
 
-/* Does any block in row or column a of the item differ from zero? K is symmetric: the row tells. */
+/* Does any of the numbers in row a of the item's blocks differ from zero? K is symmetric, so that columns
+ * need not be examined. */
 static int moves (const double *row, size_t count)
 {
     for (size_t k = 0; k < count; k++) if (row[k] != 0) return 1;
@@ -117,7 +118,8 @@ done:
 }
 
 /* ---- during a refresh ---------------------------------------------------------------------------------- */
-/* Before anything is evaluated: a refresh of all bonds changes everything. */
+/* Begins the record of a refresh, before it evaluates anything; all: it concerns all bonds, so that the
+ * change is not known. */
 void galerkin_change_begin (galerkin *g, int all)
 {
     galerkin_change *c = g->change;
@@ -126,8 +128,8 @@ void galerkin_change_begin (galerkin *g, int all)
     c->lost |= all;
 }
 
-/* Points of a set, about to be evaluated anew (sign -1) or just evaluated (1). With consistent integration
- * the bulk counts cell by cell: galerkin_change_cells. */
+/* Records points of a set, about to be evaluated anew (sign -1) or just evaluated (1). With consistent
+ * integration the bulk is recorded by cells: galerkin_change_cells. */
 pg_status galerkin_change_points (galerkin *g, int set, size_t count, const size_t *list, double sign)
 {
     pg_status status = PG_OK;
@@ -166,11 +168,11 @@ pg_status galerkin_change_patch (galerkin *g, size_t patch, int supported, doubl
     return add_item (g, galerkin_dilatation_family (g), galerkin_dilatation_blocks, patch, sign);
 }
 
-/* Elimination has changed. */
+/* Records that the elimination T has changed. */
 void galerkin_change_basis (galerkin *g) { if (g->change) g->change->basis = 1; }
 
 /* ---- to be asked for ----------------------------------------------------------------------------------- */
-/* The first call begins the record. */
+/* Hands out the change of K since the last call (pg_force_type.change). The first call begins the record. */
 pg_status galerkin_change_of (void *self, pg_stiffness_change *out)
 {
     pg_status status = PG_OK;

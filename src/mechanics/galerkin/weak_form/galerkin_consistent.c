@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rows of the evaluation points for the sums over them. With consistent integration the derivatives of a cell
- * obey the divergence identity as long as no bond of its points, or of the points of a cell beside it, is
- * broken; after that they are the direct ones of its live bonds. */
+ * Shape functions of the evaluation points for stiffness and force. With consistent integration the
+ * derivatives of a cell obey the divergence identity as long as no bond of its points, or of the points of a
+ * neighbouring cell, is broken; after that they are the uncorrected ones of its intact bonds. */
 #include "galerkin.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows of the evaluation points for all sums: those of the shape functions themselves or, with consistent
- * integration, copies with derivatives of their own. */
+/* Creates g->sums: the rows of the shape functions themselves or, with consistent integration, copies with
+ * derivatives of their own. */
 pg_status galerkin_consistent_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -27,7 +27,7 @@ done:
     return status;
 }
 
-/* What is borrowed from the shape functions is not freed here. */
+/* Frees the rows, except those borrowed from the shape functions. */
 void galerkin_consistent_free (galerkin *g)
 {
     if (g->problem->form.consistency && !g->borrows) pg_free (g->sums.N), pg_free (g->sums.dN);
@@ -36,8 +36,8 @@ void galerkin_consistent_free (galerkin *g)
     pg_free (g->whole);
 }
 
-/* Live bonds alone, and linear fields reproduced at all points of the cell and of its faces? Else the
- * identity would spoil what it corrects. */
+/* Are all bonds of the cell's points intact, and are linear fields reproduced at all points of the cell and
+ * of its faces? Else the correction would make derivatives worse. */
 static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -55,14 +55,15 @@ static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell
     return 1;
 }
 
-/* The cell, those beside it and hosts of these are no longer whole. */
+/* Marks the cells that need this cell complete (itself, its neighbours, hosts of these) as no longer
+ * whole. */
 static void open_around (galerkin *g, size_t cell)
 {
     const pg_family *f = &g->problem->form.consistency->opens;
     for (size_t k = f->start[cell]; k < f->start[cell + 1]; k++) g->whole[f->node[k]] = 0;
 }
 
-/* Are all cells complete that a cell needs to be whole? */
+/* Are all cells complete that this cell needs in order to be whole? */
 static int complete_around (const galerkin *g, const pg_state *state, size_t cell)
 {
     const pg_family *f = &g->problem->form.consistency->needs;
@@ -71,8 +72,9 @@ static int complete_around (const galerkin *g, const pg_state *state, size_t cel
     return 1;
 }
 
-/* The cell has changed: it and those that need it are whole, or no longer whole, by the bonds that live now
- * (those of a trial live again afterwards). Those that change are appended to list. */
+/* After a change of the cell: decides by the present bonds whether it and the cells that need it are whole
+ * (bonds broken in a trial step may be intact again). Appends those that change to list; returns its
+ * length. */
 static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, size_t *list, size_t n)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -93,7 +95,7 @@ static int compare (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Puts numbers in order, each once; returns how many are left. */
+/* Sorts numbers and removes duplicates; returns how many are left. */
 static size_t unique (size_t *list, size_t n)
 {
     size_t kept = 0;
@@ -102,7 +104,7 @@ static size_t unique (size_t *list, size_t n)
     return kept;
 }
 
-/* Cells of the touched points and those that change with them, each once, ascending. */
+/* Lists the cells of the touched points, and those that change with them, each once, ascending. */
 static pg_status changed_cells (galerkin *g, const pg_state *state, size_t count, size_t **out, size_t *n)
 {
     pg_status status = PG_OK;
@@ -121,7 +123,8 @@ done:
 }
 
 /* ---- what a change changes ----------------------------------------------------------------------------- */
-/* Values of the points of some cells, one cell after the other. */
+/* Copies of the values at the points of some cells, cell by cell; place (2 a cell): offsets of its bonds and
+ * of its points. */
 typedef struct { double *N, *dN, *weight; size_t *place; } kept_rows;
 
 static void free_rows (kept_rows *k)
@@ -129,7 +132,7 @@ static void free_rows (kept_rows *k)
     pg_free (k->N), pg_free (k->dN), pg_free (k->weight), pg_free (k->place);
 }
 
-/* Bonds of a cell's points, and the first of them. */
+/* Number of bonds of a cell's points; *from: the first of them. */
 static size_t bonds_of (const galerkin *g, size_t cell, size_t *from)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -161,7 +164,7 @@ done:
     return status;
 }
 
-/* Leaves those cells in the list whose values are others than they were; returns how many. */
+/* Keeps in the list only cells whose values differ from the copies; returns how many. */
 static size_t different (const galerkin *g, size_t n, size_t *cell, kept_rows *old)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -198,8 +201,8 @@ static void swap_rows (galerkin *g, size_t n, const size_t *cell, kept_rows *old
     }
 }
 
-/* The list grows by the cells near the cracks as they were, and as they are, where something there may be
- * another: cracks have moved, or bonds have broken. */
+/* Adds to the list the cells near the former and the present cracks, if cracks have moved or bonds have
+ * broken. */
 static pg_status near_cells (galerkin *g, const pg_state *state, size_t **list, size_t *n)
 {
     pg_status status = PG_OK;
@@ -227,8 +230,8 @@ done:
     return status;
 }
 
-/* The list grows by the hosts and guests of its cells: what a host obeys depends on which of these are
- * whole. */
+/* Adds the hosts and guests of its cells to the list: what identity a host obeys depends on which of these
+ * are whole. */
 static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
 {
     pg_status status = PG_OK;
@@ -248,7 +251,7 @@ done:
     return status;
 }
 
-/* Values of these cells as they are to be now. */
+/* Computes the present values of these cells. */
 static pg_status renew (galerkin *g, size_t n, const size_t *cell)
 {
     pg_status status = PG_OK;
@@ -260,8 +263,8 @@ done:
     return status;
 }
 
-/* all: from scratch; else the cells of the *count points in g->list, which is replaced by all points
- * whose rows have changed. */
+/* Updates g->sums. all: all cells; else the cells of the *count points in g->list, which is replaced by all
+ * points whose rows have changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count)
 {
     pg_status status = PG_OK;

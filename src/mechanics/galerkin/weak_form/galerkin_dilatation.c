@@ -2,22 +2,24 @@
  * The dilatation that carries the pressure near Poisson's ratio 1/2: stress = lambda P (div u) 1 + (D -
  * lambda 1 1') strain, P the projection, by the weights of the evaluation points, on polynomials of a patch
  * (integration.h): 1 and x, y (, z), or 1 alone where the patch is small. With psi_m orthonormal, sum_p w_p
- * psi_m (p) psi_n (p) = delta_mn, and g_m = sum_p w_p psi_m (p) grad N (p), the patch adds (lambda / 2) sum_m
- * (g_m . d)^2 to the energy: K stays symmetric, and what it loses against pointwise is positive. Linear
- * displacements have constant dilatation: nothing changes for them. Where bonds are dead a patch falls apart
- * into the parts that live bonds of neighbours still join, each with polynomials of its own. Of a point that
- * several patches share each has its share of the weight, and the pressure there is the mean of theirs. */
+ * psi_m (p) psi_n (p) = delta_mn, and g_m = sum_p w_p psi_m (p) grad N (p), the patch adds (lambda / 2)
+ * sum_m (g_m . d)^2 to the energy: K stays symmetric, and its energy is at most that without projection.
+ * Linear displacements have constant dilatation: nothing changes for them. Where bonds are broken a patch is
+ * divided into the parts that intact bonds of neighbours still join, each with polynomials of its own. A
+ * point shared by several patches contributes to each by its share of the weight, and the pressure there is
+ * the mean of theirs. */
 #include "galerkin_dilatation.h"
 #include <math.h>
 #include <string.h>
 
-static const double enough = 0.7;                      /* of the full volume: linear, else constant */
-static const double nearby = 1.25;                     /* spacings: bonds that join the points of a patch */
+/* share of the full volume from which on a part is linear, else constant */
+static const double enough = 0.7;
+static const double nearby = 1.25;         /* length up to which bonds join the points of a patch, spacings */
 
 typedef galerkin_part part;
 
-/* psi_m at x: L^-1 (1, (x - centre) / size), orthonormal over the points of the part. x may lie outside
- * of the patch, at a facet. */
+/* psi_m at position x: L^-1 (1, (x - centre) / size), orthonormal over the points of the part. x may lie
+ * outside of the patch, on a facet. */
 void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x, double *psi)
 {
     psi[0] = 1;
@@ -29,7 +31,7 @@ void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a,
     }
 }
 
-/* What entry i of the patches has of the weight of its point, m^3; 0 where that has no gradient and so
+/* Share of entry i of the patches in the weight of its point, m^3; 0 where the point has no gradient and so
  * carries no stress. */
 static double weight (const galerkin *g, size_t i)
 {
@@ -38,8 +40,9 @@ static double weight (const galerkin *g, size_t i)
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : q->share[i] * g->sums.weight[p];
 }
 
-/* Volume (m^3), centroid and half width (m) of the points of patch c that belong to part k: with these
- * lengths the polynomials are of the order of 1, and L is well conditioned whatever the size of the body. */
+/* Computes volume (m^3), centroid and half width (m) of the points of patch c that belong to part k: with
+ * these lengths the polynomials are of the order of 1, and L is well conditioned whatever the size of the
+ * body. */
 static void measure_part (const galerkin *g, size_t c, int k, part *a, double *volume)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -90,8 +93,8 @@ static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
     for (int r = 0; r < a->terms * a->terms; r++) a->L[r] *= sqrt (volume);
 }
 
-/* g_m = sum_p w_p psi_m (p) grad N (p) of a part, on the nodes of its patch (terms x nodes x dim), so
- * that g_m . d is the m-th coefficient of the projected dilatation, m^(3/2). */
+/* Computes g_m = sum_p w_p psi_m (p) grad N (p) of a part, on the nodes of its patch (terms x nodes x dim),
+ * so that g_m . d is the m-th coefficient of the projected dilatation, m^(3/2). */
 static void sum_rows (const galerkin *g, size_t c, int k, part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -141,16 +144,16 @@ static double length_of (const galerkin *g, size_t p, size_t e)
     return sqrt (s);
 }
 
-/* The first point of the patch that has reached this node; the first call for a node stamps it. */
+/* The first point of the patch that has reached this node; set by the first call for the node. */
 static int stamped (galerkin_dilatation *d, int node, int first)
 {
     if (d->stamp[node] < 0) d->stamp[node] = first;
     return d->stamp[node];
 }
 
-/* Joins points of a patch that reach a common node by live bonds. Only bonds of about a spacing do (and
- * the shortest one of each point, or the node itself): long bonds pass around the end of a crack and
- * would join its two sides. parent: union of the points by their place in the patch. */
+/* Joins points of a patch that have intact bonds to a common node. Only bonds of about a spacing count (and
+ * the shortest one of each point, or the node itself): long bonds pass around the end of a crack and would
+ * join its two sides. parent: union of the points by their position in the patch. */
 static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
 {
     galerkin_dilatation *d = g->dilatation;
@@ -174,7 +177,8 @@ static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
     }
 }
 
-/* Parts of patch c, numbered in the order of their first points; -1: a point that carries no stress. */
+/* Divides patch c into parts, numbered in the order of their first points (d->part_of; -1: the point carries
+ * no stress). */
 static pg_status divide (galerkin *g, const pg_state *state, size_t c, int *count)
 {
     pg_status status = PG_OK;
@@ -202,8 +206,8 @@ done:
     return status;
 }
 
-/* Parts, polynomials and rows of one patch, from its live bonds. The rows of all parts lie in one block;
- * with supported facets behind it a patch has rows s for these as well. */
+/* Computes parts, polynomials and rows of one patch from its intact bonds. The rows of all parts lie in one
+ * block; a patch behind supported facets has rows s for these as well. */
 static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
 {
     pg_status status = PG_OK;
@@ -232,8 +236,8 @@ done:
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* Materials without lambda (plain), which give the stress beside the pressure of the patches, and memory.
- * Rows follow with the first update. */
+/* Allocates memory and makes the materials without lambda (plain), which give the stress except the pressure
+ * of the patches. Rows follow with the first update. */
 pg_status galerkin_dilatation_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -277,7 +281,7 @@ void galerkin_dilatation_free (galerkin *g)
     g->dilatation = NULL;
 }
 
-/* The material by which stresses at a point are taken before the pressure of its patch is added. */
+/* The material that gives the stress at a point before the pressure of its patch is added. */
 const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
 {
     int block = g->material[set][p];
@@ -291,8 +295,8 @@ static void mark_patches (galerkin_dilatation *d, const pg_patches *q, size_t p)
     for (size_t k = q->start[p]; k < q->start[p + 1]; k++) d->mark[q->of[q->entry[k]]] = 1;
 }
 
-/* Patches of points that lost a bond, or that a supported facet leans on, are built anew; their nodes'
- * rows of K become stale. */
+/* Rebuilds the patches of points that lost a bond, or that touched facet points belong to; the rows of K of
+ * their nodes become stale. */
 pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, const size_t *count)
 {
     pg_status status = PG_OK;
@@ -327,7 +331,7 @@ static double lambda_of (const galerkin *g, size_t c)
     return q->lambda[g->material[g->bulk][q->point[q->first[c]]]];
 }
 
-/* Number `at` of g_m - s_m */
+/* Component `at` of g_m - s_m. */
 static double entry (const part *a, size_t at) { return a->s ? a->g[at] - a->s[at] : a->g[at]; }
 
 /* Adds to `out` (m x dim x dim) the blocks of node a of patch c with the first m of its nodes: lambda
@@ -354,7 +358,7 @@ void galerkin_dilatation_blocks (void *context, size_t c, size_t a, size_t m, do
             }
 }
 
-/* g_m . x, or (g_m - s_m) . x, of every part of patches first .. last */
+/* Computes g_m . x, or (whole) (g_m - s_m) . x, of every part of patches first .. last - 1. */
 typedef struct { galerkin *g; const double *x; int whole; } measuring;
 
 static void measure_patches (void *context, size_t first, size_t last, int thread)
@@ -383,14 +387,14 @@ static void measure_patches (void *context, size_t first, size_t last, int threa
     }
 }
 
-/* All patches, by threads; each is the work of one. */
+/* Measures all patches in parallel; each patch is the work of one thread. */
 static void measure_all (galerkin *g, const double *x, int whole)
 {
     measuring m = { g, x, whole };
     pg_parallel (g->threads, g->problem->form.patches->n, measure_patches, &m);
 }
 
-/* y += K x of the patches: N, in the order of patches, so that threads do not show. */
+/* y += K x of the patches, N; summed in the order of patches, so that results do not depend on threads. */
 void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
 {
     const pg_family *f = &g->dilatation->family;
@@ -434,7 +438,7 @@ void galerkin_dilatation_diagonal (galerkin *g, double *d)
 }
 
 /* ---- pressures ----------------------------------------------------------------------------------------- */
-/* lambda P (div u) at x, of the parts of bulk point p; Pa */
+/* lambda P (div u) at position x by the parts of bulk point p, Pa. */
 static double pressure_at (const galerkin *g, size_t p, const double *x)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -450,16 +454,16 @@ static double pressure_at (const galerkin *g, size_t p, const double *x)
     return sum;
 }
 
-/* A pressure is on all normal stresses, in a plane also on the one across it. */
+/* Adds a pressure to all normal stresses of a point; in 2D also to the one across the plane. */
 static void add_pressure (galerkin *g, int set, size_t p, double value)
 {
     for (int k = 0; k < g->dim; k++) g->measured.stress[set][p * (size_t) g->nv + (size_t) k] += value;
     if (g->dim == 2) g->measured.zz[set][p] += value;
 }
 
-/* Pressure at nodes that are no evaluation points: the mean of what the patches of the points that see
- * them say there, weighted by the influence of the live bonds; of two materials only the node's own
- * counts. */
+/* Pressure at nodes that are no evaluation points: the mean of the patch pressures of the points with intact
+ * bonds to the node, extrapolated to it and weighted by their influence; only points of the node's own
+ * material count. */
 static void node_pressures (galerkin *g, double *value, double *share)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -479,7 +483,8 @@ static void node_pressures (galerkin *g, double *value, double *share)
     for (size_t j = 0; j < g->n; j++) value[j] = share[j] > 0 ? value[j] / share[j] : 0;
 }
 
-/* To d->amount, Pa: by their patch where nodes are evaluation points, else by those around them. */
+/* Writes the pressure at every node to d->amount, Pa: that of its patch where nodes are evaluation points,
+ * else the mean over points around it. */
 static void at_nodes (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;
@@ -487,7 +492,8 @@ static void at_nodes (galerkin *g)
     else for (size_t p = 0; p < g->n; p++) d->amount[p] = pressure_at (g, p, g->sums.x + p * (size_t) g->dim);
 }
 
-/* Adds the pressures to the stresses of a set, which are those of the plain materials so far. */
+/* Adds the pressures of the patches to the stresses of a set, which were computed with the materials without
+ * lambda. */
 void galerkin_dilatation_measure (galerkin *g, int set, const double *d)
 {
     galerkin_dilatation *q = g->dilatation;

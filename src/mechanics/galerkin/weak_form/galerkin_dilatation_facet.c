@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Nitsche's terms with a projected dilatation. The traction on a supported facet has the pressure of the
- * patch behind it, its polynomials carried on to the facet. With gap = u - prescribed and c_m = int psi_m n .
- * gap over the supported facets of a patch,
- *     (lambda / 2) sum_m [ (g_m . d)^2 - 2 (g_m . d) c_m + (1 + factor) c_m^2 ] = (lambda / 2) sum_m [ (g_m .
- *       d - c_m)^2 + factor c_m^2 ]: the energy of the patch, the work of its pressure on the gap, and the
- *       flux through the gap, with Nitsche's factor. Only the few numbers c_m weigh with lambda; the usual
- *       term on every point of a facet can stay in units of E. In units of lambda it would hold these points
- *       so hard that the support locks (a cantilever at 0.4999 came out 1.8 % too stiff, against 0.05 %
- * so). */
+ * Nitsche's terms with a projected dilatation. The traction on a supported facet contains the pressure of
+ * the patch behind it, whose polynomials are continued to the facet. With gap = u - prescribed and c_m = int
+ * psi_m n . gap over the supported facets of a patch,
+ * (lambda / 2) sum_m [ (g_m . d)^2 - 2 (g_m . d) c_m + (1 + factor) c_m^2 ] = (lambda / 2) sum_m [ (g_m . d
+ * - c_m)^2 + factor c_m^2 ]: the energy of the patch, the work of its pressure on the gap, and the flux
+ * through the gap, with Nitsche's factor. Only the few numbers c_m are weighted by lambda; the usual term on
+ * every point of a facet can stay in units of E. In units of lambda it would hold these points so stiffly
+ * that the support locks (a cantilever at 0.4999 was then 1.8 % too stiff, against 0.05 % so). */
 #include "galerkin_dilatation.h"
 #include "perigal/vector.h"
 #include <math.h>
@@ -18,9 +17,9 @@
 /* Does evaluation point p belong to a patch? */
 static int is_covered (const pg_patches *q, size_t p) { return q->start[p + 1] > q->start[p]; }
 
-/* The evaluation point whose patch goes on at each facet point: the nearest one of the cell behind it
- * that belongs to a patch, else the nearest of all; with nodal integration, whose points lie in no cell,
- * always that. -1: no patch is there. */
+/* Finds the evaluation point whose patch is continued to each facet point: the nearest one of the cell behind
+ * it that belongs to a patch, else the nearest of all; with nodal integration, whose points lie in no cell,
+ * always the latter. -1: that one belongs to no patch. */
 static pg_status find_homes (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -50,8 +49,7 @@ done:
     return status;
 }
 
-/* The entries of the patches that a supported facet point leans on, and how many; 0: none, or it is not
- * supported. */
+/* The entries of the patches behind a facet point; returns their number, 0: none, or it is not supported. */
 static size_t behind (const galerkin *g, size_t f, const size_t **entry)
 {
     const pg_patches *q = g->problem->form.patches;
@@ -61,7 +59,7 @@ static size_t behind (const galerkin *g, size_t f, const size_t **entry)
     return q->start[home + 1] - q->start[home];
 }
 
-/* Supported facet points by their patch, in compressed rows. */
+/* Lists the supported facet points of every patch, in compressed rows. */
 static pg_status sort_facets (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -86,7 +84,7 @@ done:
     return status;
 }
 
-/* Nodes of a family that are not yet stamped with c, appended. */
+/* Appends the nodes of family `at` of f that are not yet stamped with c. */
 static pg_status add_nodes (galerkin_dilatation *d, const pg_family *f, size_t at, int c, size_t *cap,
                             size_t *n)
 {
@@ -101,7 +99,8 @@ done:
     return status;
 }
 
-/* Nodes of a patch and of its supported facet points, ascending: rows g and s share one list. */
+/* Makes the lists of nodes of each patch and of its supported facet points, ascending: rows g and s share one
+ * list. */
 static pg_status unite (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -123,7 +122,7 @@ done:
     return status;
 }
 
-/* After the patches and the points of supports are known. */
+/* Prepares the facets; called when the patches and the points of supports are known. */
 pg_status galerkin_dilatation_facets_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -148,8 +147,8 @@ static double normal (const galerkin *g, size_t f, int k)
     return g->problem->bonds.facet_normal[f * (size_t) g->dim + (size_t) k];
 }
 
-/* s_m = int psi_m n_k N over the supported facet points of part k of patch c, on the nodes of the patch:
- * with the prescribed components alone, so that s_m . d - (prescribed part) is c_m. */
+/* Computes s_m = int psi_m n_k N over the supported facet points of part k of patch c, on the nodes of the
+ * patch, for the prescribed components only, so that s_m . d - (prescribed part) is c_m. */
 void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerkin_part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -182,13 +181,13 @@ static galerkin_part *part_of (const galerkin *g, size_t i)
     return d->part_of[i] < 0 ? NULL : &d->patch[g->problem->form.patches->of[i]].part[d->part_of[i]];
 }
 
-/* Its lambda, Pa. */
+/* Lame's first parameter of the patch behind facet point f, Pa. */
 static double lambda_behind (const galerkin *g, size_t f)
 {
     return g->problem->form.patches->lambda[g->material[g->bulk][g->dilatation->home[f]]];
 }
 
-/* c_m of all parts at time t, from the displacements measured at facet points: sum w psi_m n_k (u_k -
+/* Computes c_m of all parts at time t from the displacements measured at facet points: sum w psi_m n_k (u_k -
  * prescribed). */
 void galerkin_dilatation_gaps (galerkin *g, double t)
 {
@@ -215,7 +214,8 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     }
 }
 
-/* What the patch adds to the traction of one constraint, Pa: -(1 + factor) lambda n_k sum_m psi_m c_m. */
+/* Contribution of the patch to the traction of one constraint, Pa: -(1 + factor) lambda n_k sum_m psi_m
+ * c_m. */
 double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
 {
     const size_t *entry = NULL;
@@ -233,8 +233,8 @@ double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
            * sum;
 }
 
-/* Adds lambda sum_m c_m g_m to f, N: the work of the pressure's variation on the gap, which makes the
- * terms symmetric. */
+/* f += lambda sum_m c_m g_m, N: the work of the pressure's variation on the gap, which makes the terms
+ * symmetric. */
 void galerkin_dilatation_adjoint (const galerkin *g, double *f)
 {
     const galerkin_dilatation *d = g->dilatation;

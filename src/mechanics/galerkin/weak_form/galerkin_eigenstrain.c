@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Eigenstrains (temperature, shrinkage, pore pressure): stress is that of the strain less the free one, which
- * is the same along all axes. What it works is a pair of its own at every evaluation point, so that energies
- * balance: dU = sigma : d eps - sigma : d eps*. */
+ * Eigenstrains (temperature, shrinkage, pore pressure): the stress is that of the strain minus the free
+ * strain eps*, which is equal along all axes. Its work is a pair of its own at every evaluation point, so
+ * that energies balance: dU = sigma : d eps - sigma : d eps*. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
 
-/* What the free strain is in the components that the body has: in plane strain the expansion that is held
+/* Factor from the free strain to that in the components of the body: in plane strain the expansion restrained
  * across the plane adds Poisson's ratio times it. */
 static double held (const pg_material *m) { return m->mode == PG_PLANE_STRAIN ? 1 + m->nu : 1; }
 
-/* Stress across the plane that holding this expansion makes, per free strain, Pa. */
+/* Stress across the plane by the restrained expansion, over the free strain, Pa; 0 unless in plane strain. */
 static double across (const pg_material *m) { return m->mode == PG_PLANE_STRAIN ? m->E : 0; }
 
 pg_status galerkin_eigen_create (galerkin *g)
@@ -46,13 +46,13 @@ void galerkin_eigen_free (galerkin *g)
     pg_free (e->pattern);
 }
 
-/* A point that sees too little for a strain has no free one either: it carries no stress. */
+/* The free strain of a point; 0 where it has too few neighbours for a strain and carries no stress. */
 static double free_strain (const galerkin *g, int set, size_t p)
 {
     return g->rows[set].grade[p] < PG_GRADE_SHEPARD ? g->eigen.strain[set][p] : 0;
 }
 
-/* Stress at a point by its strain e less the free one. */
+/* Computes the stress at point p of a set from its strain e minus the free strain. */
 void galerkin_eigen_stress (const galerkin *g, int set, size_t p, const double *e)
 {
     const pg_material *m = galerkin_material (g, set, p);
@@ -63,9 +63,9 @@ void galerkin_eigen_stress (const galerkin *g, int set, size_t p, const double *
     g->measured.zz[set][p] -= across (m) * free;
 }
 
-/* The size of the forces that hold the body unstrained, N: with these, where nothing else loads it, residuals
- * are compared. Of every point the stress that this takes times its volume over its spacing, whatever is
- * broken, so that a run that goes on from a checkpoint takes the same. */
+/* Norm of the forces that would hold the body unstrained, N: the reference for residuals where nothing else
+ * loads it. Of every point the stress of its free strain times volume over spacing, regardless of broken
+ * bonds, so that a resumed run gets the same. */
 static double size_of_forces (const galerkin *g)
 {
     double sum = 0, none[6] = { 0 }, s[6], zz;
@@ -82,7 +82,8 @@ static double size_of_forces (const galerkin *g)
     return sqrt (sum);
 }
 
-/* Adds the free strains of a load at time t; of one that is a pattern times a factor of t by its pattern. */
+/* Adds the free strains of load l at time t to those of set s: its pattern times a factor, if it
+ * separates. */
 static void add_load (galerkin *g, size_t l, int s, double t)
 {
     const pg_load *load = &g->problem->boundary.load[l];
@@ -109,9 +110,8 @@ void galerkin_eigen_at (galerkin *g, double t)
     e->force = size_of_forces (g);
 }
 
-/* Takes what the free strain at a place makes off its stress (xx yy zz xy yz zx); q: an evaluation point of
- * the
- * material there. */
+/* Subtracts from a stress at position x (xx yy zz xy yz zx, Pa) that of the free strain there at time t; q:
+ * an evaluation point of the same material. */
 void galerkin_eigen_relieve (const galerkin *g, double t, const double *x, size_t q, double *stress)
 {
     if (!g->eigen.strain[PG_NODES]) return;
@@ -139,7 +139,7 @@ void galerkin_eigen_bonds (const galerkin *g, int set, size_t count, const size_
     }
 }
 
-/* sigma : eps* at a point of the bulk over eps*, Pa. */
+/* sigma : eps* over eps* at a point of the bulk, Pa. */
 static double pressure (const galerkin *g, size_t p)
 {
     double sum = g->dim == 2 ? g->measured.zz[g->bulk][p] : 0;
@@ -147,7 +147,7 @@ static double pressure (const galerkin *g, size_t p)
     return sum;
 }
 
-/* What the energy of total strains at a point has too much, J/m^3. */
+/* Excess of half sigma : eps, with the total strain, over the elastic energy density at point p, J/m^3. */
 double galerkin_eigen_energy (const galerkin *g, size_t p)
 {
     return g->eigen.strain[PG_NODES] ? 0.5 * pressure (g, p) * free_strain (g, g->bulk, p) : 0;
@@ -159,9 +159,8 @@ size_t galerkin_eigen_pairs (const galerkin *g)
            ? g->sums.n + g->supports.nnitsche : 0;
 }
 
-/* Work of a unit free strain on the gap of a constraint by Nitsche's terms, J: what these store has the
- * traction times the gap in it, so that a free strain works on the gap by the traction that it would take off
- * (n D m, m = 1 along all axes). */
+/* Work of a unit free strain on the gap of a constraint by Nitsche's terms, J: their energy contains the
+ * traction times the gap, and the free strain reduces the traction by n D m, m = 1 along all axes. */
 static double on_gap (const galerkin *g, const constraint *q, double t)
 {
     size_t dim = (size_t) g->dim;
@@ -176,7 +175,7 @@ static double on_gap (const galerkin *g, const constraint *q, double t)
     return g->rows[PG_FACETS].weight[q->point] * gap * traction;
 }
 
-/* Pairs from number `at` on; they are no force on the body. */
+/* Fills the pairs of the free strains from number `at` on; they are no forces on the body. */
 void galerkin_eigen_work (const galerkin *g, double t, pg_work_balance *out, size_t at)
 {
     const galerkin_supports *c = &g->supports;

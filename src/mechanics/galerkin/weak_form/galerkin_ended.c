@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Consistent integration in cells that end at cracks (in the plane). A crack that runs through a cell divides
- * it into parts P, whose evaluation points g share the volume of P,
+ * Consistent integration in cells that end at cracks (2D). A crack that runs through a cell divides it into
+ * parts P, whose evaluation points g share the volume of P,
  *
  *     sum_g w_g = V (P),    dN_I,k (g) += (oint_dP N_I n_k dS - sum_g w_g dN_I,k (g)) / V (P),
  *
- * N_I on the border being values of bonds that no crack cuts: on the faces of the crack those of its side
- * (with a linear basis and the reach that contact has, among the nodes of the cell), on sides of cells those
- * that the part beyond has as well. A linear displacement on each side of a crack that bears a uniform
- * pressure then is in equilibrium as it is without the crack. Parts without evaluation points are added to
- * the part beyond their longest side, in equal shares where several sides are as long. Chen, Hillman and
- * Rueter 2013, doi 10.1002/nme.4512 (identity); doc/method.md, Cells that end at cracks. */
+ * where N_I on the border are values of bonds that no crack cuts: on the faces of the crack those of its
+ * side (with a linear basis and the support radius that contact uses, among the nodes of the cell), on sides
+ * of cells those common to the part beyond. A linear displacement on each side of a crack under uniform
+ * pressure is then in equilibrium, as it is without the crack. Parts without evaluation points are added to
+ * the part beyond their longest side, in equal shares where several sides are equally long. Chen, Hillman
+ * and Rueter 2013, doi 10.1002/nme.4512 (identity); doc/method.md, Cells that end at cracks. */
 #include "galerkin_ended.h"
 #include <math.h>
 #include <string.h>
@@ -41,7 +41,7 @@ void galerkin_ended_free (galerkin *g)
 }
 
 /* ---- values on borders --------------------------------------------------------------------------------- */
-/* What threads share: the live bonds of places seen from their eyes. */
+/* Arguments shared by threads that find the intact bonds of points, seen from their eyes. */
 typedef struct { const galerkin *g; const pg_cracks *cracks; const pg_rows *rows; const double *eye;
                  const size_t *list; unsigned char *alive; } looking;
 
@@ -59,7 +59,7 @@ static void look (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Faces of the cells near cracks: all points of faces of cells, each once, in `list`. */
+/* Lists all points on faces of the cells near cracks, each once. */
 static pg_status list_faces (const galerkin *g, size_t **list, size_t *n)
 {
     pg_status status = PG_OK;
@@ -80,7 +80,8 @@ done:
     return status;
 }
 
-/* Values at the faces of all cells: those of live bonds near cracks, else those of the intact body. */
+/* Evaluates the values at the faces of all cells: those of intact bonds near cracks, else those of the intact
+ * body. */
 static pg_status evaluate_faces (galerkin *g, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
@@ -109,8 +110,7 @@ done:
     return status;
 }
 
-/* Where that is too little for a linear field the first wider support serves that is enough, over the same
- * nodes. */
+/* Points without a full linear basis get the narrowest wider support that gives one, over the same nodes. */
 static pg_status widen_extra (galerkin *g, const pg_approx *a)
 {
     static const double wider[] = { 1.15, 1.3, 1.6, 2, PG_WIDEST_SUPPORT };
@@ -130,7 +130,7 @@ done:
     return status;
 }
 
-/* Values on cracks and pieces of sides. */
+/* Evaluates the values at points on cracks and pieces of sides. */
 static pg_status evaluate_extra (galerkin *g, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
@@ -156,7 +156,7 @@ done:
     return status;
 }
 
-/* 1: too little is seen from the face, and was not known to be. */
+/* Marks a face as weak if a point on it has too poor a basis; returns 1 if it was not marked before. */
 static int weaken (struct galerkin_ended *e, const pg_faces *f, size_t face)
 {
     int weak = 0;
@@ -165,8 +165,8 @@ static int weaken (struct galerkin_ended *e, const pg_faces *f, size_t face)
     return e->weak[face] = 1;
 }
 
-/* Faces from which too little is seen get the values of pieces; cells whose border still sees too little keep
- * what they had. */
+/* Weak faces are to be replaced by pieces of their own points; cells whose points on pieces still have too
+ * poor a basis fail. Returns 1 if anything changed. */
 static int fail_poor (galerkin *g)
 {
     struct galerkin_ended *e = g->ended;
@@ -195,7 +195,8 @@ done:
 }
 
 /* ---- derivatives --------------------------------------------------------------------------------------- */
-/* sum (m x 2) += flux N at one point of the border, whose nodes are among those of the cell. */
+/* sum (m x 2) += sign flux N at point q of the border, for those of its nodes that are among the m of the
+ * cell. */
 static void add_values (const pg_rows *rows, size_t q, const double *flux, double sign, size_t m,
                         const int *node, double *sum)
 {
@@ -208,7 +209,7 @@ static void add_values (const pg_rows *rows, size_t q, const double *flux, doubl
     }
 }
 
-/* The integral over the border of part p of the cell at place k. */
+/* sum (m x 2) += oint N n dS over the border of part p of cell k of `near`, m^2. */
 static void integrate (const galerkin *g, size_t k, int p, size_t m, const int *node, double *sum)
 {
     const struct galerkin_ended *e = g->ended;
@@ -228,7 +229,7 @@ static void integrate (const galerkin *g, size_t k, int p, size_t m, const int *
     }
 }
 
-/* Volume of part p of the cell at place k with all that leans on it, m^3. */
+/* Volume of part p of cell k of `near` and of its shares in parts without points, m^3. */
 static double volume_of (const galerkin *g, size_t k, int p)
 {
     const struct galerkin_ended *e = g->ended;
@@ -246,8 +247,8 @@ static double volume_of (const galerkin *g, size_t k, int p)
     return sum * g->problem->cells.thickness;
 }
 
-/* One part: weights, then derivatives; sum: scratch, 2 numbers a node, twice. Points that see too little for
- * a gradient of their own have the mean one. */
+/* Corrects part p of cell k of `near`: weights, then derivatives. Points without a gradient of their own get
+ * the mean one. sum: scratch, 4 numbers a node. */
 static void treat (galerkin *g, size_t k, int p, double *sum)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -277,7 +278,7 @@ static void treat (galerkin *g, size_t k, int p, double *sum)
     }
 }
 
-/* Values and grades at the faces of all cells: those of the intact body until there are others. */
+/* Values and grades at the faces of all cells: those of the intact body until others have been evaluated. */
 const pg_rows *galerkin_ended_faces (const galerkin *g)
 {
     return g->ended && g->ended->face.N ? &g->ended->face : &g->problem->form.consistency->face;
@@ -342,8 +343,8 @@ done:
 }
 
 /* ---- jumps --------------------------------------------------------------------------------------------- */
-/* The point on a crack at x whose part lies on the side that the normal shows to (sign 1) or on the other one
- * (-1), SIZE_MAX: there is none. */
+/* The point on a crack at position x whose part lies on the side that the normal points to (sign 1) or on the
+ * other side (-1); SIZE_MAX: there is none. */
 static size_t point_at (const galerkin *g, const double *x, const double *normal, double sign)
 {
     const struct galerkin_ended *e = g->ended;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which cells end at cracks. Of the cells from which a crack can be seen those are treated that see no tip,
- * have lost just the bonds that the cracks cut, and whose parts, if a crack runs through them, have an
- * evaluation point each, or lie beside a part of another cell that has. The others keep what they have
- * without this: direct derivatives where bonds are broken. */
+ * Decides which cells end at cracks. Of the cells whose supports reach a crack those are treated that reach
+ * no crack tip, have lost exactly the bonds that the cracks cut, and whose parts, if a crack runs through
+ * them, have an evaluation point each, or lie beside a part of another cell that has one. The others are
+ * left as they are: with uncorrected derivatives where bonds are broken. */
 #include "galerkin_ended.h"
 #include <math.h>
 #include <string.h>
 
 static double spacing (const galerkin *g, const double *x) { return pg_problem_spacing_at (g->problem, x); }
 
-/* How far the points of cells see by a support that is no wider than usual, m. */
+/* The largest support radius of points that have no widened support, m. */
 static double reach_of (const galerkin *g)
 {
     const pg_cloud *c = &g->problem->cloud;
@@ -56,7 +56,8 @@ int ended_moved (const galerkin *g, const pg_state *state)
     return 0;
 }
 
-/* Cells from which cracks can be seen, and those beside them, which would lose their correction with them. */
+/* Lists the cells whose supports reach a crack, and their neighbours, which would lose their correction with
+ * them. */
 static pg_status find_near (galerkin *g, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
@@ -96,7 +97,7 @@ done:
 }
 
 /* ---- conditions ---------------------------------------------------------------------------------------- */
-/* Does an end of a segment lie in the body, where nothing goes on? */
+/* Is an end of crack segment k a tip: in the body, and not on another segment? */
 static int is_tip (const galerkin *g, const pg_cracks *cracks, size_t k, int end)
 {
     const double *x = cracks->crack[k].vertex + 2 * end, *y = cracks->crack[k].vertex + 2 * (1 - end);
@@ -108,8 +109,8 @@ static int is_tip (const galerkin *g, const pg_cracks *cracks, size_t k, int end
     return pg_problem_has_body (g->problem, ahead);
 }
 
-/* Cells that see a tip fail. Whether one that is just a horizon away sees it must not hang on rounding: it
- * does where the kernel is not zero there. */
+/* Lets the cells fail whose supports reach a crack tip. Whether one just a horizon away does must not depend
+ * on rounding: it counts if the kernel is not zero at its edge (closed). */
 static void look_for_tips (galerkin *g, const pg_cracks *cracks)
 {
     struct galerkin_ended *e = g->ended;
@@ -128,7 +129,7 @@ static void look_for_tips (galerkin *g, const pg_cracks *cracks)
         }
 }
 
-/* Are just those bonds of the cell's points broken that the cracks cut? */
+/* Are exactly those bonds of the cell's points broken that the cracks cut? */
 static int explained (const galerkin *g, const pg_state *state, const pg_cracks *cracks, size_t cell)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -146,7 +147,7 @@ static int explained (const galerkin *g, const pg_state *state, const pg_cracks 
     return c->first[cell + 1] > c->first[cell];
 }
 
-/* The evaluation points in a part; each must lie clearly in one. */
+/* Number of evaluation points of a cell that lie in a part of it. */
 static size_t points_in (const galerkin *g, size_t cell, const pg_cell_part *part)
 {
     const pg_consistency *c = g->problem->form.consistency;
@@ -156,7 +157,7 @@ static size_t points_in (const galerkin *g, size_t cell, const pg_cell_part *par
     return n;
 }
 
-/* The face of the problem on a side of a cell, SIZE_MAX: none; *other: the cell beyond, -1: none. */
+/* The face on the side from a to b of a cell, SIZE_MAX: none; *other: the cell beyond, -1: none. */
 static size_t face_on (const galerkin *g, size_t cell, const double *a, const double *b, int *other)
 {
     const pg_faces *f = &g->problem->form.consistency->faces;
@@ -175,8 +176,8 @@ static size_t face_on (const galerkin *g, size_t cell, const double *a, const do
     return SIZE_MAX;
 }
 
-/* The face and the cell beyond of edge i of a part: its side of the cell as a whole. whole: the edge is all
- * of that side. */
+/* The face of the side of the cell that edge i of a part lies on, and the cell beyond (*other). *whole: 1:
+ * the edge is all of that side. */
 static size_t face_of_edge (const galerkin *g, size_t cell, const pg_cell_part *part, int i, int *other,
                             int *whole)
 {
@@ -188,8 +189,8 @@ static size_t face_of_edge (const galerkin *g, size_t cell, const pg_cell_part *
     return face_on (g, cell, a, b, other);
 }
 
-/* Does a side of the cell have no face? Of ranks that share the body, one at the end of the cells that this
- * rank holds: nothing that it owns depends on it. */
+/* Has a side of the cell no face? On several ranks this happens at the end of the cells that this rank holds;
+ * nothing that it owns depends on such a cell. */
 static int is_open (const galerkin *g, const ended_cell *c)
 {
     int other, whole;
@@ -201,8 +202,8 @@ static int is_open (const galerkin *g, const ended_cell *c)
     return 0;
 }
 
-/* The part of a cell of the list that lies beyond the middle of an edge, by more than rounding (nothing,
- * m). */
+/* The part of the cell `beyond` that contains a position just beyond the middle of the edge from u to v, -1:
+ * none. nothing: length that counts as rounding, m. */
 static int part_beyond (const ended_cell *beyond, const double *u, const double *v, double nothing)
 {
     double length = hypot (v[0] - u[0], v[1] - u[1]), away = fmax (1e-7, nothing / length),
@@ -212,11 +213,11 @@ static int part_beyond (const ended_cell *beyond, const double *u, const double 
     return -1;
 }
 
-/* A piece of a side of a part: its ends, the face of the problem that it lies on (SIZE_MAX: none), the cell
- * beyond (-1: none) and, if that is divided too, its part there (-1: none); whole: it is all of the side of
+/* A piece of a side of a part: its ends u and v (m), the face it lies on (SIZE_MAX: none), the cell beyond
+ * (-1: none) and, if that is divided too, its part there (to; -1: none); whole: 1: it is all of the side of
  * the cell. */
 typedef struct { double u[2], v[2]; size_t face; int other, to, whole; } piece;
-/* The chords that divide a cell end at most so often on one side. */
+/* Most pieces of a side, as the chords that divide a cell end at most so often on it. */
 enum { PIECES = 2 * (PG_PARTS - 1) + 1 };
 
 /* For qsort: ascending. */
@@ -226,8 +227,8 @@ static int compare_shares (const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Where corners of the parts of a cell lie between the ends of an edge, in shares of the way from u to v,
- * ascending; the last share is 1. */
+/* Positions of corners of the parts of a cell between the ends of an edge, as shares of the way from u to v,
+ * ascending; the last share is 1. Returns their number. */
 static int corners_on (const pg_cell_parts *parts, const double *u, const double *v, double nothing,
                        double *share)
 {
@@ -245,8 +246,8 @@ static int corners_on (const pg_cell_parts *parts, const double *u, const double
     return n;
 }
 
-/* Edge i of a part in pieces with one part beyond each: a crack that has a kink on a side of a cell, or
- * ends on it in the cell beyond alone, divides the cell beyond but not this one. Returns how many. */
+/* Divides edge i of a part into pieces with one part beyond each: a crack that has a kink on a side of a
+ * cell, or ends on it from the other side, divides the cell beyond but not this one. Returns their number. */
 static int pieces_of (const galerkin *g, size_t cell, const pg_cell_part *part, int i, piece *out)
 {
     const struct galerkin_ended *e = g->ended;
@@ -274,8 +275,9 @@ static int pieces_of (const galerkin *g, size_t cell, const pg_cell_part *part, 
     return n;
 }
 
-/* A part without points leans on the part beyond the longest of its edges, or on those beyond all that are as
- * long: a crack at 45 degrees cuts corners off cells that have two. 0: it has none that stands. */
+/* Finds the hosts of a part: itself, if it has evaluation points; else the part beyond the longest of its
+ * edges, or those beyond all equally long ones (a crack at 45 degrees cuts corners off cells that have two).
+ * 0: there is none with points. */
 static int find_host (galerkin *g, size_t at, int part)
 {
     struct galerkin_ended *e = g->ended;
@@ -309,7 +311,8 @@ double ended_share (const ended_hosts *of, size_t k, int p)
     return 0;
 }
 
-/* Parts, and what they lean on, until nothing fails any more. */
+/* Finds the hosts of all parts, repeatedly until no further cell fails; marks cells that host parts of
+ * others. */
 static void find_hosts (galerkin *g)
 {
     struct galerkin_ended *e = g->ended;
@@ -326,8 +329,9 @@ static void find_hosts (galerkin *g)
                 if (e->near[k].host[p].at[i] != (int) k) e->near[e->near[k].host[p].at[i]].guest = 1;
 }
 
-/* Is any edge of the cell on a crack, a piece of a side, or beside a part that leans on another cell? Or do
- * its points, or those of its faces, see too little for a linear field? */
+/* Must the cell be treated in parts? So if one of its edges is on a crack, a piece of a side, or beside a
+ * part hosted by another cell, or if its points, or those of its faces, have too poor a basis for a linear
+ * field. */
 static int in_parts (const galerkin *g, const ended_cell *c)
 {
     const struct galerkin_ended *e = g->ended;
@@ -350,11 +354,12 @@ static int in_parts (const galerkin *g, const ended_cell *c)
 }
 
 /* ---- borders ------------------------------------------------------------------------------------------- */
-/* The parts on whose points an edge of the border leans: those of the part that it belongs to (own) and of
- * the part beyond (NULL: none). */
+/* The hosts whose points determine the values on an edge of the border: those of its own part and of the part
+ * beyond (NULL: none). */
 typedef struct { const ended_hosts *own, *beyond; } leaning;
 
-/* The nodes that all these cells have in their lists, which are ascending. */
+/* Appends the family of point e->nextra: the nodes common to the lists, which are ascending, of all host
+ * cells. */
 static pg_status add_family (struct galerkin_ended *e, const pg_family *f, leaning on)
 {
     pg_status status = PG_OK;
@@ -384,8 +389,8 @@ done:
     return status;
 }
 
-/* A point of the border, for each of the parts that stand for what is behind it: its place, weight (m), and
- * the outward normal. */
+/* Adds a point of the border, once for each host of the part behind it: position x, outward normal, weight
+ * (m). */
 static pg_status add_point (galerkin *g, leaning on, const double *x, const double *normal, double weight,
                             int crack)
 {
@@ -411,8 +416,8 @@ done:
     return status;
 }
 
-/* Points on an edge of the border: on cracks those at which contact looks at the gap, elsewhere Gauss
- * points. */
+/* Adds points on an edge of the border from u to v: on cracks those at which contact measures the gap,
+ * elsewhere Gauss points. */
 static pg_status add_edge (galerkin *g, leaning on, const double *u, const double *v, int crack)
 {
     pg_status status = PG_OK;
@@ -432,7 +437,7 @@ done:
     return status;
 }
 
-/* A side of a part that is whole, with the points of its face. */
+/* Adds a whole side of a part, with the points of its face. */
 static pg_status add_side (struct galerkin_ended *e, size_t at, int part, size_t face)
 {
     pg_status status = PG_OK;
@@ -443,7 +448,7 @@ done:
     return status;
 }
 
-/* Do two parts lean on the same points? */
+/* Have two parts the same hosts? */
 static int alike (const ended_hosts *a, const ended_hosts *b)
 {
     int same = a->n == b->n;
@@ -451,8 +456,8 @@ static int alike (const ended_hosts *a, const ended_hosts *b)
     return same;
 }
 
-/* One piece of the border of part p of the cell at place `at`, as far as it is not inside what leans on the
- * same points. */
+/* Adds one piece of the border of part p of cell `at` of `near`, unless both its sides have the same
+ * hosts. */
 static pg_status add_piece (galerkin *g, size_t at, int p, const piece *one)
 {
     struct galerkin_ended *e = g->ended;
@@ -465,7 +470,7 @@ static pg_status add_piece (galerkin *g, size_t at, int p, const piece *one)
     return add_edge (g, (leaning) { host, theirs }, one->u, one->v, 0);
 }
 
-/* The border of one part. */
+/* Adds the border of part p of cell `at` of `near`. */
 static pg_status add_border (galerkin *g, size_t at, int p)
 {
     pg_status status = PG_OK;
@@ -486,7 +491,7 @@ done:
     return status;
 }
 
-/* Points and sides of each part, chained. */
+/* Chains the points and sides of each part. */
 static pg_status chain (struct galerkin_ended *e)
 {
     pg_status status = PG_OK;

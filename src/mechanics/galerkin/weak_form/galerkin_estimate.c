@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Estimated error of the stress. Every node fits a polynomial of the order of the basis to the stresses at
- * the evaluation points that see it through a live bond (its patch), weighted by kernel and volume; the
- * recovered stress s* at a point is the mean of the polynomials of the nodes it sees, weighted alike. eta^2 =
- * int (s* - s) C (s* - s) dV. Zienkiewicz & Zhu 1992 (patches), Blacker & Belytschko 1994 (mean of
- * polynomials). Patches do not cross cracks (live bonds only) nor borders of materials; points that carry
- * less than a linear basis take no part. */
+ * the evaluation points with an intact bond to it (its patch), weighted by kernel and volume; the recovered
+ * stress s* at a point is the mean of the polynomials of the nodes in its family, with the same weights.
+ * eta^2 = int (s* - s) C (s* - s) dV. Zienkiewicz & Zhu 1992 (patches), Blacker & Belytschko 1994 (mean of
+ * polynomials). Patches do not cross cracks (only intact bonds count) nor borders of materials; points with
+ * less than a linear basis are excluded. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -13,19 +13,18 @@ enum { TERMS = 10, VOIGT = 6, LANES = 4, WIDEST = TERMS + VOIGT + LANES };
 typedef struct {
     galerkin *g;
     const pg_rows *rows;
-    const double *stress;                              /* at the points (points x nv) */
-    int     order, terms;                              /* of the polynomials */
+    const double *stress;                              /* at the points, Pa (points x nv) */
+    int     order, terms;                              /* of the polynomials: order, number of terms */
     /* Normal equations A c = b of each node (stride numbers): row a begins at at[a] with nv numbers of b,
-     * which the coefficients take the place of, then a + 1 of A; what fills its last four has no meaning. */
+     * later replaced by the coefficients, then a + 1 numbers of A; padding follows. */
     size_t  at[TERMS + 1], stride;
     double *fit;
     unsigned char *known;                              /* the node has a polynomial (n) */
-    double *error, *size;  /* (s* - s) C (s* - s), s C s; NAN: left out (points), Pa */
+    double *error, *size;  /* (s* - s) C (s* - s) and s C s at the points, Pa; NAN: excluded */
     double *L;                                         /* factor of D of each material (36 each) */
 } recovery;
 
-/* Points with at least a linear basis: the stress of others is not of the order that polynomials are
- * fitted to. */
+/* Does point p take part: has it at least a linear basis? The stress of others is of lower order. */
 static int takes_part (const recovery *r, size_t p)
 {
     return r->rows->grade[p] <= PG_GRADE_LOWERED && r->rows->weight[p] > 0;
@@ -54,8 +53,8 @@ static void polynomial (const recovery *r, size_t p, size_t node, double *q)
         for (size_t l = k; l < dim; l++) q[m++] = z[k] * z[l];
 }
 
-/* Weight of the bond between point p and its entry e in the fit of that node, the kernel per volume; 0:
- * the node's patch does without the point, which is of another material. */
+/* Weight of the bond between point p and its entry e in the fit of that node, kernel per volume; 0: the point
+ * is of another material than the node. */
 static double weight_of (const recovery *r, size_t p, size_t e)
 {
     size_t j = (size_t) r->rows->family.node[e];
@@ -88,7 +87,8 @@ static int solve (const recovery *r, double *fit)
     return 0;
 }
 
-/* Adds a point to the normal equations of a node, four numbers at a time. row: its stress, then the terms. */
+/* Adds a point with weight w to the normal equations of a node, four numbers at a time. row: its stress, then
+ * the terms. */
 PG_WIDE static void add_point (const recovery *r, double w, const double *row, double *fit)
 {
     for (int a = 0; a < r->terms; a++) {
@@ -98,8 +98,8 @@ PG_WIDE static void add_point (const recovery *r, double w, const double *row, d
     }
 }
 
-/* Normal equations of nodes first .. last. Each thread reads all points and takes what concerns its own
- * nodes, in ascending order: sums do not depend on the number of threads. */
+/* Fits the polynomials of nodes first .. last - 1. Each thread reads all points in ascending order and uses
+ * those with bonds to its own nodes: sums do not depend on the number of threads. */
 static void fit_nodes (void *context, size_t first, size_t last, int thread)
 {
     recovery *r = context;
@@ -133,8 +133,7 @@ static double complementary (const recovery *r, size_t p, const double *s)
     return sum;
 }
 
-/* s += w times the polynomials with the coefficients of a node (eight numbers; those from nv on are not
- * used). */
+/* s += w times the polynomials of a node at terms q (eight numbers; those from nv on are unused). */
 PG_WIDE static void add_values (const recovery *r, double w, const double *q, const double *fit, double *s)
 {
     four *sum = (four *) (void *) s;
@@ -145,8 +144,8 @@ PG_WIDE static void add_values (const recovery *r, double w, const double *q, co
     }
 }
 
-/* Recovered stress less the computed one at a range of points, and both in the energy norm; NAN where
- * nothing is known. */
+/* Energy norms of the difference of recovered and computed stress, and of the computed one, at a range of
+ * points; NAN where no node has a polynomial. */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
     recovery *r = context;
@@ -173,9 +172,9 @@ static void compare_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Every point's share to the node it lies nearest to, or to those equally near (two passes: the smallest
- * distance, then who has it). value: root of E times the mean density, Pa, so that it can be read beside
- * stresses. */
+/* Distributes the error of every point to its nearest node, or to all equally near (two passes: the smallest
+ * distance, then the nodes at that distance). value: root of E times the mean error density, Pa, so that it
+ * can be compared with stresses. */
 static void to_nodes (const recovery *r, double *volume, double *value)
 {
     const galerkin *g = r->g;
@@ -200,8 +199,7 @@ static void to_nodes (const recovery *r, double *volume, double *value)
                                  : 0;
 }
 
-/* Norms over the body, by the weights of the points; relative: the error over the size of recovered
- * stress, at most 1. */
+/* Sums up the norms over the body; relative: the error over the norm of the recovered stress, at most 1. */
 static void add_up (const recovery *r, pg_estimate *out)
 {
     double error = 0, size = 0;
@@ -214,7 +212,7 @@ static void add_up (const recovery *r, pg_estimate *out)
     out->relative = size + error > 0 ? sqrt (error / (size + error)) : 0;
 }
 
-/* Fit, comparison, norms; the error of every node in `value` unless NULL. D of each material is factored
+/* Computes the estimate; value (n): the error at every node, Pa, unless NULL. D of each material is factored
  * once. */
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value)
 {

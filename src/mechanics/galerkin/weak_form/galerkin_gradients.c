@@ -3,22 +3,23 @@
  *
  *     G_kl (a, b) = sum_p w_p dN_a/dx_k dN_b/dx_l,    K_ij (a, b) = sum_kl C_ikjl G_kl (a, b),
  *
- * C being D with pairs of axes for its numbers in Voigt's order, the points add up G alone: in space nine
- * products for two nodes at a point instead of 27, for nodes that lie side by side in memory. D comes in
- * once for two nodes, when all points have been summed. A row of G has `dim` parts, one for each k, with the
- * numbers of node b at b dim. */
+ * where C is D with pairs of axes instead of Voigt numbers, the points add up G alone: in 3D nine products
+ * for two nodes at a point instead of 27, for nodes that are adjacent in memory. D is applied once for two
+ * nodes, when all points have been summed. A row of G has `dim` parts, one for each k, with the numbers of
+ * node b at b dim. */
 #include "galerkin.h"
 #include <string.h>
 
-/* Points that are taken at once. */
+/* Number of points that are summed at once. */
 enum { BATCH = 32 };
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* Derivatives of the node of the row times weight (dim a point), and derivatives of all nodes of a point. */
+/* Of n points: derivatives of the row's node times the weight (dim a point), and the derivatives of all their
+ * nodes. */
 typedef struct { size_t n; double q[3 * BATCH]; const double *row[BATCH]; } batch;
 
-/* Eight numbers of each part (pair: sixteen) from place `at` on. */
+/* Sums eight numbers of each part (pair: sixteen) of a row of G over the batch, from position `at` on. */
 INLINE void add_lanes (int dim, int pair, const batch *b, size_t length, size_t at, double *out)
 {
     double *to = out + at, *y = to + length, *z = y + length;
@@ -64,7 +65,8 @@ PG_WIDEST static void add_plane (const batch *b, size_t length, double *out)
     add_products (2, b, length, out);
 }
 
-/* Points first .. last - 1, which see the same nodes: local node a with 0 .. m - 1. */
+/* Adds the points first .. last - 1, which have the same nodes, to the row of G of local node a with nodes 0
+ * .. m - 1. */
 static void sum_points (const galerkin *g, size_t first, size_t last, size_t a, size_t m, double *out)
 {
     const pg_rows *r = &g->sums;
@@ -93,7 +95,7 @@ void galerkin_cell_rows (void *context, size_t cell, size_t a, size_t m, double 
     sum_points (g, first[cell], first[cell + 1], a, m, out);
 }
 
-/* K from G, in place: of one node after the other with that of the row. */
+/* Replaces a row of G by that of K, in place, one node after the other. */
 void galerkin_finish_rows (void *context, size_t m, double *rows)
 {
     static const size_t voigt[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
@@ -117,7 +119,7 @@ void galerkin_finish_rows (void *context, size_t m, double *rows)
     }
 }
 
-/* Do all points of evaluation have the same D, under whatever names of materials, and nothing beside it? */
+/* Have all evaluation points the same D, whatever their materials, and is there no stabilisation? */
 int galerkin_has_rows (const galerkin *g)
 {
     const double *D = NULL;

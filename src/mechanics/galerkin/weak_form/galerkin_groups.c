@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Groups of bonds, and all others. A group is looked at after every event (judge_group in
- * galerkin_bonds.c); all other bonds are looked at for many displacements at once, as a proof afterwards
- * that none of them would have broken in between. Of a point, displacement or stresses are made for all
- * these displacements in one pass over its shape functions, so that these are read once instead of once an
- * event; where the criterion is a linear form of what a bond shows (pg_criterion_type.linear, .planes), a
- * bond is a few products for each of them. */
+ * Groups of bonds, and the bonds outside of a group. A group is judged after every event (judge_group in
+ * galerkin_bonds.c); all other bonds are judged for many displacement fields at once, to prove afterwards
+ * that none of them would have broken in between. Displacement or stresses of a point are computed for all
+ * these fields in one pass over its shape functions, so that these are read once instead of once an event;
+ * where the criterion is a linear form of stretch or stress (pg_criterion_type.linear, .planes), a bond
+ * costs a few products for each field. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdlib.h>
@@ -13,13 +13,13 @@
 enum { CHUNK = 64 };                                   /* bonds of a point that are judged together */
 
 /* ---- what a group depends on --------------------------------------------------------------------------- */
-/* The rows by which a point of a set is measured. */
+/* The rows of shape functions that belong to the points of a set. */
 static const pg_rows *rows_of (const galerkin *g, int set)
 {
     return set == g->bulk ? &g->sums : &g->rows[set];
 }
 
-/* Sorted list of the marked ones of n. */
+/* Lists the marked ones of n, ascending. */
 static pg_status list_marked (size_t n, const unsigned char *mark, size_t *count, size_t **out)
 {
     pg_status status = PG_OK;
@@ -33,7 +33,8 @@ done:
     return status;
 }
 
-/* Owners of the bonds, and both ends of each marked: the point in its set, the node among the nodes. */
+/* Finds the points that own the bonds of a group, and marks both ends of each bond: the point in its set, the
+ * node among the nodes. */
 static pg_status find_owners (const galerkin *g, pg_bond_group *group, unsigned char *mark[PG_BOND_SETS])
 {
     pg_status status = PG_OK;
@@ -47,7 +48,7 @@ static pg_status find_owners (const galerkin *g, pg_bond_group *group, unsigned 
         group->first[set] = k;
         for (; k < group->n && group->bond[k] < p->bonds.first[set + 1]; k++) {
             size_t e = group->bond[k] - p->bonds.first[set];
-            if (f->start[point + 1] <= e) {            /* the next one, or one far off: by bisection */
+            if (f->start[point + 1] <= e) {            /* the next point, or one far off: by bisection */
                 size_t low = point + 1, high = f->n;
                 while (high - low > 1) {
                     size_t mid = (low + high) / 2;
@@ -65,7 +66,8 @@ done:
     return status;
 }
 
-/* Projected dilatations are pressures of patches, which reach beyond what a point sees. */
+/* Lists the points and nodes that a group of bonds depends on. *can: 0 with a projected dilatation, whose
+ * pressures depend on nodes outside of a point's family. */
 pg_status galerkin_gather (void *self, pg_bond_group *group, int *can)
 {
     pg_status status = PG_OK;
@@ -100,15 +102,15 @@ typedef struct {
     const pg_state *state;
     const unsigned char *left_out;
     int       set, stress;  /* stress: the criterion judges stresses, not stretch */
-    size_t    count, width;  /* displacements; numbers of a point for each of them */
+    size_t    count, width;  /* number of displacement fields; numbers of a point for each */
     const double *d;
-    /* nodes: displacement, or largest and smallest principal stress, [node][number][displacement]; then of
-     * each thread a place for one point more, and its top */
+    /* node: displacement, or largest and smallest principal stress, of all nodes [node][number][field]; room:
+     * scratch of each thread, with room for one more point; top: largest utilisation of each thread. */
     double   *node, *room, *top;
     size_t    room_size;
 } others;
 
-/* u [dim][count] of a point */
+/* u [dim][count]: displacement of point p in all fields, m. */
 PG_WIDE static void displacements (const others *o, size_t p, double *u)
 {
     const pg_rows *r = rows_of (o->g, o->set);
@@ -121,7 +123,7 @@ PG_WIDE static void displacements (const others *o, size_t p, double *u)
     }
 }
 
-/* H [dim: component][dim: derivative][count] of a point */
+/* H [dim: component][dim: derivative][count]: displacement gradient of point p in all fields. */
 PG_WIDE static void gradients (const others *o, size_t p, double *H)
 {
     const pg_rows *r = rows_of (o->g, o->set);
@@ -139,7 +141,7 @@ PG_WIDE static void gradients (const others *o, size_t p, double *H)
     }
 }
 
-/* Engineering strain in Voigt order of gradient H at displacement k. */
+/* e: engineering strain in Voigt order from gradient H in field k. */
 static void strain_of (size_t dim, size_t n, size_t k, const double *H, double *e)
 {
 #define AT(c, x) H[((c) * dim + (x)) * n + k]
@@ -149,7 +151,7 @@ static void strain_of (size_t dim, size_t n, size_t k, const double *H, double *
 #undef AT
 }
 
-/* Largest and smallest principal stress [2][count] of a point. */
+/* out [2][count]: largest and smallest principal stress of point p in all fields, Pa. */
 static void principals (const others *o, size_t p, double *out, double *room)
 {
     const galerkin *g = o->g;
@@ -163,8 +165,7 @@ static void principals (const others *o, size_t p, double *out, double *room)
     for (size_t k = 0; k < n; k++) out[k] = three[3 * k], out[n + k] = three[3 * k + 2];
 }
 
-/* Principal stresses, or displacements, of point p for each of the displacement fields that are asked
- * about. */
+/* Principal stresses or displacements of point p in all displacement fields. */
 static void show (const others *o, size_t p, double *out, double *room)
 {
     if (o->stress) principals (o, p, out, room);
@@ -190,7 +191,7 @@ PG_WIDE static void stretch_of_all (size_t dim, size_t n, const double *a, const
     }
 }
 
-/* top[k] = max (top[k], form of the mean of both ends) */
+/* top[k] = max (top[k], form applied to the mean principal stresses of both ends) */
 PG_WIDE static void stress_of_all (size_t n, const double *form, const double *sj, const double *sp,
                                    double *top)
 {
@@ -201,7 +202,7 @@ PG_WIDE static void stress_of_all (size_t n, const double *form, const double *s
     }
 }
 
-/* Some bonds of a point by the law of one material. */
+/* Judges n bonds of point p by one criterion. */
 static void judge_by_law (const others *o, const pg_criterion *c, size_t p, size_t n, const size_t *entry,
                           const double *own, double *top)
 {
@@ -231,7 +232,7 @@ static void judge_by_law (const others *o, const pg_criterion *c, size_t p, size
                         o->node + (size_t) r->family.node[entry[i]] * o->width * o->count, own, top);
 }
 
-/* By the laws of both ends. */
+/* Judges n bonds of point p by the criteria of both their ends. */
 static void judge_some (const others *o, size_t p, size_t n, const size_t *entry, const double *own,
                         double *top)
 {
@@ -256,7 +257,7 @@ static void judge_some (const others *o, size_t p, size_t n, const size_t *entry
     }
 }
 
-/* A range of points of a set; points of which no bond is looked at are not measured either. */
+/* Judges the bonds of a range of points; points without a bond to be judged are not measured. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const others *o = context;
@@ -280,7 +281,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Criteria of another kind: displacement by displacement, as a plain look at all bonds. */
+/* Judges by criteria that are not linear: field by field, all bonds each time. */
 static pg_status judge_one_by_one (galerkin *g, const pg_state *state, const unsigned char *left_out,
                                    int of_unit, size_t count, const double *d, double *top)
 {
@@ -302,7 +303,7 @@ done:
     return status;
 }
 
-/* Is the criterion, of all materials, a linear form of what it judges by? */
+/* Is the criterion of every material a linear form of stress or stretch? */
 static int is_linear (const pg_problem *p, int stress)
 {
     for (size_t m = 0; m < p->at.nlimit; m++) {
@@ -316,7 +317,8 @@ static int is_linear (const pg_problem *p, int stress)
     return 1;
 }
 
-/* Nodes first, as every bond ends at one; then the points of each set in turn. */
+/* Judges all bonds that are not left out: nodes are measured first, as every bond ends at one; then the
+ * points of each set in turn. */
 pg_status galerkin_judge_others (galerkin *g, const pg_state *state, const unsigned char *left_out,
                                  int of_unit, size_t count, const double *d, double *top)
 {

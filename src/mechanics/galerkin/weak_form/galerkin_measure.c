@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Displacement, strain and stress of evaluation points, from nodal values. Where only some nodes have moved
- * since the last measure, points that see them are measured anew, in blocks.
+ * since the last measure, only blocks of points with bonds to them are measured anew.
  *
  * Points of the bulk that have the same shape functions, most of those of a lattice, are measured eight at a
- * time (galerkin_runs.c), by the same operations in the same order as one by one: what a point
- * shows has the same bits whatever it was measured with. */
+ * time (galerkin_runs.c), by the same operations in the same order as one by one: the results have the same
+ * bits in both ways. */
 #include "galerkin_slices.h"
 #include <string.h>
 
@@ -14,7 +14,7 @@ typedef struct {
     const pg_rows *rows;
     const double  *x;
     const size_t  *list;
-    const unsigned char *active;                       /* blocks of points; NULL: all */
+    const unsigned char *active;                       /* blocks of points to be measured; NULL: all */
 } measuring;
 
 /* ---- one by one ---------------------------------------------------------------------------------------- */
@@ -27,8 +27,8 @@ PG_WIDE static void strain_points_solid (const measuring *m, size_t first, size_
     }
 }
 
-/* Displacement and strain at a range of points, or of entries of a list. In space in a loop of its own that
- * the compiler can widen. */
+/* Computes displacement and strain at a range of points, or of entries of a list. In 3D in a loop of its own
+ * that the compiler can vectorise. */
 static void strain_points (const measuring *m, size_t first, size_t last)
 {
     galerkin *g = m->g;
@@ -42,8 +42,8 @@ static void strain_points (const measuring *m, size_t first, size_t last)
     }
 }
 
-/* Stress at a range of points, or of entries of a list, whose strain is known: as many at once as have the
- * same law and follow each other. */
+/* Computes the stress at a range of points, or of entries of a list, whose strain is known: for consecutive
+ * points of one material in one call. */
 static void stress_points (const measuring *m, size_t first, size_t last)
 {
     galerkin *g = m->g;
@@ -62,7 +62,7 @@ static void stress_points (const measuring *m, size_t first, size_t last)
     }
 }
 
-/* What is derived of the stress of a block of points is to be derived anew. */
+/* Marks the bounds derived from the stress of a block of points as out of date. */
 static void forget_bounds (galerkin *g, int set, size_t block)
 {
     if (g->bounds.bounded[set]) g->bounds.bounded[set][block] = 0;
@@ -73,7 +73,7 @@ static size_t blocks_of (const galerkin *g, int set)
     return (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
 }
 
-/* The rows by which a point of a set is measured. */
+/* The rows of shape functions that belong to the points of a set. */
 static const pg_rows *rows_of (const galerkin *g, int set)
 {
     return set == g->bulk ? &g->sums : &g->rows[set];
@@ -87,7 +87,7 @@ static size_t block_end (const galerkin *g, int set, size_t block)
     return end < n ? end : n;
 }
 
-/* Stresses of blocks whose strains are known. */
+/* Computes stresses of active blocks whose strains are known. */
 static void stress_blocks (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
@@ -99,7 +99,7 @@ static void stress_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Points in those of some blocks that are active. */
+/* Computes strains and stresses of the active ones of some blocks. */
 static void measure_blocks (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
@@ -110,7 +110,7 @@ static void measure_blocks (void *context, size_t first, size_t last, int thread
 }
 
 /* ---- eight at a time ----------------------------------------------------------------------------------- */
-/* Strains of a range of points, of blocks that are active. */
+/* Computes strains of those of a range of points that lie in active blocks. */
 static void strain_range (const measuring *m, size_t first, size_t last)
 {
     for (size_t from = first, end; from < last; from = end) {
@@ -120,7 +120,7 @@ static void strain_range (const measuring *m, size_t first, size_t last)
     }
 }
 
-/* Have products found points that are alike, in any slice? */
+/* Have earlier products K x found runs of points with the same shape functions, in any slice? */
 static int knows_runs (const galerkin_slices *s)
 {
     int some = 0;
@@ -128,8 +128,9 @@ static int knows_runs (const galerkin_slices *s)
     return some;
 }
 
-/* Strains of whole slices, each by one thread: runs that products K x have found, and the points between
- * them. A measure looks for none: with a factor of K there are no products, and a look costs more. */
+/* Computes strains of whole slices, each by one thread: runs that products K x have found, and the points
+ * between them. No runs are searched here: with a factored K there are no products, and a search costs more
+ * than it saves. */
 static void strain_slices (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
@@ -151,8 +152,8 @@ static void strain_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Blocks whose points are to be measured at displacement d: those that see a node which has moved, and those
- * measured at another displacement meanwhile. NULL: all. */
+/* Blocks whose points are to be measured at displacement d: those with bonds to a node that has moved, and
+ * those measured at another displacement since (disturbed). NULL: all. */
 static const unsigned char *to_measure (galerkin *g, int set, const double *d)
 {
     unsigned char *active = g->measured.fresh[set] ? galerkin_active (g, set, d, g->measured.seen[set])
@@ -161,8 +162,8 @@ static const unsigned char *to_measure (galerkin *g, int set, const double *d)
     return active;
 }
 
-/* All points of a set, unless they were measured at the same displacement already: balances, fields and
- * criteria ask for the same one several times a step. */
+/* Measures all points of a set, unless they were measured at the same displacement already: balances, fields
+ * and criteria need the same one several times a step. */
 void galerkin_measure (galerkin *g, int set, const double *d)
 {
     size_t bytes = g->n * (size_t) g->dim * sizeof *d, blocks = blocks_of (g, set);
@@ -181,7 +182,8 @@ void galerkin_measure (galerkin *g, int set, const double *d)
     g->measured.fresh[set] = 1;
 }
 
-/* Some points anew at the displacement measured last, after their shape functions have changed. */
+/* Measures the listed points at the displacement of the last measure, after their shape functions have
+ * changed. */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
 {
     measuring m = { g, set, rows_of (g, set), galerkin_widened (g, g->measured.seen[set]), list, NULL };
@@ -189,13 +191,14 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
     for (size_t k = 0; k < count; k++) forget_bounds (g, set, list[k] / GALERKIN_BLOCK);
 }
 
-/* What was measured at these points belongs to another displacement than what was at all others. */
+/* Marks blocks whose points were measured at another displacement than the rest. */
 static void disturb (galerkin *g, int set, size_t count, const size_t *list)
 {
     for (size_t k = 0; k < count; k++) g->measured.disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
 }
 
-/* Some points at a displacement that is known at some nodes only, all that these points see. */
+/* Measures the listed points at a displacement that is given at some nodes only, all those in their
+ * families. */
 void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
                             size_t nnode, const int *node)
 {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loads and essential conditions of the Galerkin form (theory E6): Nitsche on facet points,
- *   R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k), beta = nitsche E
- *       / h,
+ * R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k), beta = nitsche E /
+ * h,
  * penalty on nodes, tractions and pressures on facets, point and body forces. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Is value in the ascending list? By bisection: sets are asked for every facet and every node. */
+/* Is value in the ascending list? By bisection, since it is called for every facet and every node. */
 static int member (const int *list, size_t n, int value)
 {
     size_t lo = 0, hi = n;
@@ -20,15 +20,15 @@ static int member (const int *list, size_t n, int value)
     return lo < n && list[lo] == value;
 }
 
-/* Does the load leave component k alone? Loads that prescribe nothing do, and so do components beyond the
- * dimension. */
+/* Does the load leave component k free? Loads that prescribe nothing do, and components beyond the dimension
+ * are free. */
 static int free_by (const pg_problem *p, const pg_load *load, int k)
 {
     return k >= p->dim || !pg_load_prescribes (load) || !load->value[k];
 }
 
-/* Constraints by Nitsche's terms, ascending by point; a component that two loads prescribe belongs to the
- * first. */
+/* Lists the constraints by Nitsche's terms, ascending by point; a component that two loads prescribe belongs
+ * to the first. */
 static pg_status find_nitsche (galerkin *g)
 {
     galerkin_supports *c = &g->supports;
@@ -57,8 +57,8 @@ done:
     return status;
 }
 
-/* Constraints by penalty, node by node, and the nodes that the displacement of each of them depends on:
- * with shape functions that do not interpolate, u at a node is a sum over its neighbours. A component
+/* Lists the constraints by penalty, node by node, and the nodes that the displacement of each of them depends
+ * on: with shape functions that do not interpolate, u at a node is a sum over its neighbours. A component
  * that two loads prescribe belongs to the first. */
 static pg_status find_penalties (galerkin *g)
 {
@@ -69,7 +69,7 @@ static pg_status find_penalties (galerkin *g)
     size_t cap = 0, cap_node = 0, cap_start = 0, cap_entry = 0, cap_first = 0, nnz = 0;
     for (size_t i = 0; i < g->n; i++) {
         unsigned taken = 0;
-        int any = 0;                                   /* springs, beside whatever holds the node */
+        int any = 0;                           /* 1: the node has springs, in addition to other constraints */
         for (size_t l = 0; l < p->boundary.nload; l++) {
             const pg_load *load = &p->boundary.load[l];
             int spring = load->kind == PG_SPRING;
@@ -99,7 +99,7 @@ done:
     return status;
 }
 
-/* Constraints on facets, then on nodes. */
+/* Lists the constraints on facets, then those on nodes. */
 pg_status galerkin_boundary_create (galerkin *g)
 {
     pg_status status = find_nitsche (g);
@@ -115,7 +115,7 @@ void galerkin_boundary_free (galerkin *g)
     pg_family_clear (&c->penalty_family);
 }
 
-/* Nodes under a penalty are ascending. */
+/* Position of a node in penalty_node, which is ascending; -1: not there. */
 long galerkin_penalty_of (const galerkin *g, size_t node)
 {
     const galerkin_supports *c = &g->supports;
@@ -134,7 +134,7 @@ static int is_everywhere (const galerkin *g, const pg_load *load)
     return load->kind == PG_BODY_FORCE && pg_set_points (load->set) == pg_cloud_total (&g->problem->cloud);
 }
 
-/* Does a load or a prescribed value act at a point of a set, so that its share of each node follows the shape
+/* Does a load or a prescribed value act at a point of a set, so that nodal forces depend on the shape
  * functions there? */
 static int loaded (const galerkin *g, int set, size_t point)
 {
@@ -162,18 +162,18 @@ int galerkin_boundary_loaded (const galerkin *g, int set, size_t count, const si
     return 0;
 }
 
-/* Q (6 numbers) with Q . sigma = (sigma n)_k for sigma in Voigt order: the row of the matrix of the
- * normal that makes component k of the traction. */
+/* Q (6 numbers): row k of the matrix of the normal n, with Q . sigma = (sigma n)_k for sigma in Voigt
+ * order. */
 static void traction_row (int dim, int k, const double *n, double *Q)
 {
     memset (Q, 0, 6 * sizeof *Q);
     for (int c = 0; c < dim; c++) Q[pg_voigt_at (dim, k, c)] += n[c];
 }
 
-/* In units of E, or of a quarter of lambda + 2 mu where that is more (Poisson's ratio above 0.455): the
- * traction of a strain is of that size, and a factor of E alone leaves K indefinite from 0.49 on. Where the
- * dilatation is projected, D is without lambda: what lambda makes of the traction is made up for patch by
- * patch (galerkin_dilatation_facet.c). */
+/* Nitsche's beta at facet point q, N/m^3: the factor times E over the spacing; instead of E a quarter of
+ * lambda + 2 mu where that is larger (Poisson's ratio above 0.455): the traction of a strain is of that size,
+ * and with E alone K is indefinite from 0.49 on. Where the dilatation is projected, D lacks lambda, whose
+ * part of the traction is treated patch by patch (galerkin_dilatation_facet.c). */
 static double beta (const galerkin *g, size_t q)
 {
     double E = galerkin_material (g, PG_FACETS, q)->modulus;
@@ -187,8 +187,8 @@ static const double *normal (const galerkin *g, size_t q)
     return g->problem->bonds.facet_normal + q * (size_t) g->dim;
 }
 
-/* QD: the Voigt vector D' Q, so that (sigma (v) n)_k = QD . B v: the traction that a displacement v of
- * the nodes makes at facet point q. */
+/* QD: the Voigt vector D' Q, with (sigma (v) n)_k = QD . B v: the traction at facet point q by nodal
+ * displacements v. */
 static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
 {
     double Q[6];
@@ -199,9 +199,9 @@ static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
         for (int v = 0; v < g->nv && Q[w] != 0; v++) QD[v] += D[w * g->nv + v] * Q[w];
 }
 
-/* Nitsche's terms of one constraint, between a node with N_a and the traction t_a of its unit displacements,
- * times the weight w, and m nodes; QD as in traction_of_strain; press: beta w N_a. Row i of the block of the
- * next node is `next` numbers on, its next row `row` numbers. */
+/* Adds Nitsche's terms of one constraint, between node a and m nodes b; wN: w N_a; wt: w times the traction
+ * t_a of unit displacements of node a; QD as in traction_of_strain; press: beta w N_a. The block of the next
+ * node begins `next` numbers further on, its next row `row` numbers. */
 static inline __attribute__ ((always_inline)) void add_nitsche (size_t dim, size_t k, const double *QD,
                                                                 double wN, const double *wt, double press,
                                                                 size_t m, const double *N, const double *dN,
@@ -218,8 +218,8 @@ static inline __attribute__ ((always_inline)) void add_nitsche (size_t dim, size
     }
 }
 
-/* Nitsche's terms of one facet point, between its node a and its first m nodes (blocks m x dim x dim):
- * -N_a (sigma (N_b) n) - (sigma (N_a) n) N_b + beta N_a N_b for the prescribed component. The second term
+/* Adds Nitsche's terms of one facet point, between its node a and its first m nodes (blocks m x dim x dim):
+ * -N_a (sigma (N_b) n) - (sigma (N_a) n) N_b + beta N_a N_b for the prescribed components. The second term
  * makes K symmetric and costs no accuracy, as it vanishes at the solution. */
 static void facet_terms (const galerkin *g, size_t p, size_t a, size_t m, size_t next, size_t row,
                          double *out)
@@ -251,9 +251,9 @@ void galerkin_facet_rows (void *context, size_t p, size_t a, size_t m, double *o
     facet_terms (g, p, a, m, (size_t) g->dim, m * (size_t) g->dim, out);
 }
 
-/* Stiffness at a node, N/m. Of a spring: the node's share of it. Of a penalty: factor E / h^2 times the
- * node's volume, so that the force on a
- * layer of points one spacing deep is that of springs factor E / h per area. */
+/* Stiffness of a constraint at a node, N/m. Of a spring: the node's share of it. Of a penalty: factor E / h^2
+ * times the node's volume, so that a layer of points one spacing deep is held by springs of factor E / h per
+ * area. */
 static double penalty (const galerkin *g, const constraint *q)
 {
     const pg_problem *p = g->problem;
@@ -269,7 +269,7 @@ static double penalty (const galerkin *g, const constraint *q)
            * p->cloud.volume[node];
 }
 
-/* Springs at the places of constraints, N/m: beta times the weight of the facet point, the penalty of the
+/* Stiffness of constraints as springs, N/m: beta times the weight of the facet point; the penalty of the
  * node. */
 double galerkin_nitsche_stiffness (const galerkin *g, const constraint *q)
 {
@@ -278,7 +278,7 @@ double galerkin_nitsche_stiffness (const galerkin *g, const constraint *q)
 
 double galerkin_penalty_stiffness (const galerkin *g, const constraint *q) { return penalty (g, q); }
 
-/* The penalty of one node between two nodes that its displacement depends on: penalty N_a N_b. */
+/* Adds the penalty of one node, between two nodes that its displacement depends on: penalty N_a N_b. */
 void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -301,8 +301,8 @@ void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, doubl
 typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force,
                          double displacement);
 
-/* Traction on one constraint, Pa: that of the stress at the facet point, less beta times the gap (m)
- * between displacement and prescribed value. */
+/* Traction of one constraint, Pa: that of the stress at the facet point minus beta times the gap (m) between
+ * displacement and prescribed value. */
 static double nitsche_traction (const galerkin *g, const constraint *q, double gap)
 {
     double Q[6], t = 0;
@@ -378,7 +378,7 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
     }
 }
 
-/* By the kind of each load. */
+/* Calls `visit` for all loads, according to their kinds. */
 static void visit_loads (const galerkin *g, double t, visitor visit, void *context)
 {
     for (size_t l = 0; l < g->problem->boundary.nload; l++) {
@@ -388,7 +388,7 @@ static void visit_loads (const galerkin *g, double t, visitor visit, void *conte
     }
 }
 
-/* In cracks, where it is the same at all places. */
+/* Pressure of load l in cracks, uniform, Pa. */
 static double pressure_at (const galerkin *g, size_t l, double t)
 {
     static const double anywhere[3] = { 0 };
@@ -397,7 +397,7 @@ static double pressure_at (const galerkin *g, size_t l, double t)
 
 typedef struct { galerkin *g; double *f; } spreading;
 
-/* A force at a point goes to the nodes that its displacement depends on, by their shape functions. */
+/* Distributes a force at a point to the nodes that its displacement depends on, by their shape functions. */
 static void spread (void *context, int set, size_t point, int load, int k, double force, double displacement)
 {
     const spreading *s = context;
@@ -408,10 +408,10 @@ static void spread (void *context, int set, size_t point, int load, int k, doubl
             += r->N[e + pg_rows_offset (r, point)] * force;
 }
 
-/* K x of the constraints first .. last - 1, all at one facet point: displacement u and gradient H of x there,
- * from these the forces N_j F and B_j' S of each node, F_k = w (beta u_k - (sigma n)_k) and S = - w sum_k u_k
- * D' Q_k over the prescribed components. Two passes over the bonds, however many components there are; `dim`
- * is a number that the compiler knows. */
+/* y += K x of the constraints first .. last - 1, all at one facet point: displacement u and gradient H of x
+ * there give the forces N_j F and B_j' S of each node, F_k = w (beta u_k - (sigma n)_k) and S = - w sum_k u_k
+ * D' Q_k over the prescribed components. Two passes over the bonds, however many components there are; dim is
+ * a compile-time constant. */
 static inline void apply_point (int dim, galerkin *g, size_t first, size_t last, const double *x, double *y)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
@@ -447,8 +447,7 @@ static inline void apply_point (int dim, galerkin *g, size_t first, size_t last,
     }
 }
 
-/* y += K x of the supports. Prescribed values play no part: a matrix is the change of forces, so that
- * displacement u and traction t are measured for x alone. */
+/* y += K x of the supports. Prescribed values do not enter: K is the derivative of the forces. */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
 {
     galerkin_supports *c = &g->supports;
@@ -472,8 +471,8 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
     }
 }
 
-/* int (sigma (v) n)_k (u_k - g_k): the symmetric counterpart of the traction, which is no force on the
- * body and so no part of reactions. */
+/* Adds int (sigma (v) n)_k (u_k - g_k) to f: the symmetric counterpart of the traction, which is no force on
+ * the body and so no part of reactions. */
 static void add_adjoint (galerkin *g, double t, double *f)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
@@ -501,8 +500,8 @@ void galerkin_loads (galerkin *g, double t, double *P)
         if (g->problem->boundary.load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), P);
 }
 
-/* Adds loads and supports to the residual, N; *external and *reaction: their sums of squares, by which
- * the residual is later judged. */
+/* Adds loads and supports to the residual, N; *external and *reaction: their sums of squares, N^2, for the
+ * reference of the residual. */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
                               double *reaction)
 {
@@ -519,7 +518,7 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
 }
 
-/* Energy that the boundary terms store: -int (u - g) (sigma n) + (beta / 2) int (u - g)^2, and the penalty
+/* Energy of the boundary terms, J: -int (u - g) (sigma n) + (beta / 2) int (u - g)^2, and that of penalty
  * springs. With it the work of the supports equals the stored energy exactly as long as nothing breaks. */
 double galerkin_boundary_energy (galerkin *g, double t)
 {
