@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The box in which a lattice is measured: a scene of its own with the first material, the
- * steps and the method of the given scene and nothing else: no loads, no supports, no
- * criterion. Making it a scene means that the box passes through the same reader and the same
- * set-up as every other body.
+ * The box in which a lattice is measured: a scene with the first material, the lattice steps and the method
+ * of the given scene, but no loads, no supports and no criterion. As a scene the box passes through the same
+ * reader and the same set-up as every other body.
  *
- * Steps of a lattice follow from the sizes of the body and may differ a little between the
- * axes. In the box the spacing sets the steps along all axes but one; along the one that
- * differs most it is built as one cell between two layers, whose thickness sets the step. */
+ * The steps of a lattice follow from the sizes of the body and may differ a little between the axes. In the
+ * box the spacing sets the steps along all axes but one; along the axis that differs most the box is one
+ * cell between two layers, whose thickness sets the step. */
 #include "symbol.h"
 #include <math.h>
 #include <stdarg.h>
@@ -35,8 +34,8 @@ done:
     return status;
 }
 
-/* Writes "name: value" with the value that the given scene has. Numbers have 17 digits, so
- * that the box has the same bits; maps and lists are not copied. */
+/* Writes "name: value" with the value of a key in the given scene. Numbers have 17 digits, so that the box
+ * gets the same bits; maps and lists are not copied. */
 static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, const char *path,
                           const char *name)
 {
@@ -74,8 +73,8 @@ done:
     return status;
 }
 
-/* Writes body and layers. There are as many points on both sides of the middle one, whether
- * points are at the nodes (vertices) or at the centres of the lattice cells. */
+/* Writes the keys `body` and `layers`, with as many points on both sides of the middle one, whether points
+ * are at the nodes (vertices) or at the centres of the lattice cells. */
 static pg_status put_body (writing *w, const box_size *size, int dim, int vertices)
 {
     static const char *const side[] = { "left", "right", "bottom", "top", "back", "front" };
@@ -97,8 +96,8 @@ done:
     return status;
 }
 
-/* The scene is written as text and parsed like a file of a user. Density 1 where the scene has
- * none: the stiffness does not depend on it. */
+/* Writes the scene of the box as text and parses it like a user's file. Density 1 where the scene has none:
+ * the stiffness does not depend on it. */
 pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -129,7 +128,7 @@ done:
 }
 
 /* ---- size ---------------------------------------------------------------------------------------------- */
-/* A typical step: the mean of up to two, the middle one of three. */
+/* A typical step, m: the mean of one or two, the median of three. */
 static double middle_step (const double *step, int dim)
 {
     double low = step[0], high = step[0], sum = 0;
@@ -137,8 +136,8 @@ static double middle_step (const double *step, int dim)
     return dim < 3 ? sum / dim : sum - low - high;
 }
 
-/* The odd axis is the one whose step differs most from the typical one; `wanted` is the mean
- * of the others. */
+/* Computes the steps of the box: `odd` is the axis whose step differs most from the typical one; `wanted` is
+ * the mean of the others. */
 pg_status box_steps (box_size *out, const pg_scene *scene, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -161,7 +160,7 @@ pg_status box_steps (box_size *out, const pg_scene *scene, const pg_problem *p)
             p->material[0].name, p->material[0].type->name);
     for (int k = 0; k < p->dim; k++) out->step[k] = p->lattice.step[k], product *= out->step[k];
     out->h = pow (product, 1.0 / p->dim);
-    for (int k = 1; k < p->dim; k++)                   /* the odd one out */
+    for (int k = 1; k < p->dim; k++)                   /* finds the axis that differs most */
         if (fabs (out->step[k] - middle_step (out->step, p->dim))
             > fabs (out->step[out->odd] - middle_step (out->step, p->dim)))
             out->odd = k;
@@ -171,8 +170,8 @@ done:
     return status;
 }
 
-/* The scene of the box rounds L / spacing to a number of cells; this must give the wanted one,
- * with some margin (0.49 of a cell). */
+/* Fails unless rounding L / spacing to a number of cells, as the reader of scenes does, gives the right
+ * number along each axis, with some margin (0.49 of a cell). */
 pg_status box_fits (const box_size *size, int dim)
 {
     pg_status status = PG_OK;

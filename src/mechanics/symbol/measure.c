@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Measures the blocks K_0j of a lattice: the middle point of a box moves by one unit of one
- * unknown at a time, and the force model answers at all points. That answer is column c of
+ * Measures the blocks K_0j of a lattice: the middle point of a box is displaced by one unit of one unknown c
+ * at a time, and the force model gives the forces on all points (the response). That response is column c of
  * K_j0; the block K_0j is its transpose.
  *
- * The box grows until the answers no longer touch its surface. Then the blocks are checked:
- * opposite ones must be transposes of each other, and a rigid translation must meet no force,
- * each to 1e-9. The middle of a box where this fails is not the inside of a lattice. */
+ * The box grows until the response no longer reaches its surface. Then the blocks are checked: opposite ones
+ * must be transposes of each other, and a rigid translation must cause no force, each to 1e-9. Where this
+ * fails the middle of the box does not behave as the interior of a lattice. */
 #include "symbol.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The box grows at most so often. */
+/* Largest number of boxes that are tried. */
 enum { TRIES = 6 };
-/* Largest number of pairs of points that see each other, weighted by the memory that they
- * take: about 1.4 GB. */
-static const double most_pairs = 2e8;  /* of points that see each other, counted by what they take: 1.4 GB */
-/* Relative to the largest answer: answers up to 1e-12 do not enlarge the box, and those up to
- * 1e-14 are dropped as rounding (Fourier transforms leave such values far away, too). */
+/* Largest number of neighbour pairs, weighted by the memory that they take. */
+static const double most_pairs = 2e8;  /* 1.4 GB */
+/* Relative to the largest response: values up to 1e-12 do not enlarge the box, and those up to 1e-14 are
+ * dropped as rounding (Fourier transforms leave such values far away, too). */
 static const double little = 1e-12, nothing = 1e-14;
 
 /* A box with its problem, state and force. */
@@ -28,12 +27,11 @@ typedef struct {
     /* The point at the origin. */
     size_t middle;
     int    m;
-    /* Answers to unit values of the unknowns c of the middle point: ndof x m, column by
-     * column, N/m. */
+    /* Response to unit values of each unknown c of the middle point: ndof x m, column by column, N/m. */
     double *answer;
 } box;
 
-/* Frees a box, also one that was never built. */
+/* Frees a box, even if it was never built. */
 static void clear (box *b)
 {
     if (b->self) b->force->free (&b->self);
@@ -73,9 +71,8 @@ done:
     return status;
 }
 
-/* Builds the box and measures the answers. The number of pairs is estimated before anything is
- * allocated; integration by Gauss points takes about ten times as much memory for each pair
- * and point. */
+/* Builds the box and measures the response. The number of pairs is estimated before anything is allocated;
+ * Gauss points take about ten times as much memory for each pair and point. */
 static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -128,9 +125,9 @@ static void offset_of (const box *b, const box_size *size, size_t j, int *offset
         offset[k] = k < dim ? (int) lround (b->problem->cloud.x[j * dim + k] / size->step[k]) : 0;
 }
 
-/* 1 if the answers end at least two points inside the surface of the box. With a surface
- * correction the weights of bonds depend on whether the family of their ends is whole, so one
- * horizon more is needed. Otherwise sets `half` to what is needed. */
+/* 1 if the response ends at least two points inside the surface of the box. With a surface correction the
+ * weights of bonds depend on whether the families of their ends are complete, so one horizon more is needed.
+ * Otherwise sets size->half to what is needed. */
 static int large_enough (const box *b, box_size *size)
 {
     int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m,
@@ -154,8 +151,8 @@ static int large_enough (const box *b, box_size *size)
 }
 
 /* ---- what is kept of it -------------------------------------------------------------------------------- */
-/* Keeps the blocks that are more than rounding, and for shape functions the row of the mass
- * matrix of the middle point, divided by its mass: int N_0 N_j dV / V. */
+/* Stores the blocks that exceed rounding, and for shape functions the row of the mass matrix of the middle
+ * point, divided by its mass: int N_0 N_j dV / V. */
 static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -191,9 +188,8 @@ done:
     return status;
 }
 
-/* Checks symmetry and rigid translation as described above, and finds the unknowns that
- * nothing resists. In the list of all places of the box the opposite of place p is all - 1 -
- * p. */
+/* Checks symmetry and rigid translation (head of the file), and finds the unknowns without stiffness. In the
+ * list of all positions of the box the opposite of position p is all - 1 - p. */
 static pg_status verify (pg_symbol *s, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -209,7 +205,7 @@ static pg_status verify (pg_symbol *s, const box_size *size)
                     + (size_t) (s->offset[3 * j + (size_t) k] + (k < s->dim ? size->half[k] : 0));
         at[place] = j + 1;
     }
-    for (size_t p = 0; p < all; p++)                   /* the opposite of place p is place all - 1 - p */
+    for (size_t p = 0; p < all; p++)                   /* the opposite of position p is all - 1 - p */
         for (size_t e = 0; at[p] && e < mm; e++) {
             double K = s->block[(at[p] - 1) * mm + e],
                    other = at[all - 1 - p] ? s->block[(at[all - 1 - p] - 1) * mm + e % m * m + e / m] : 0;
@@ -234,8 +230,8 @@ done:
     return status;
 }
 
-/* Lumped masses of the middle point, and the bound of the largest frequency as explicit
- * solvers have it. */
+/* Computes the lumped masses of the middle point, and the bound of the largest frequency that explicit
+ * solvers use. */
 static pg_status weigh (pg_symbol *s, box *b)
 {
     pg_status status = PG_OK;
@@ -252,8 +248,8 @@ done:
     return status;
 }
 
-/* The first box has two horizons and two points more on each side, since shape functions
- * couple points at twice the horizon. */
+/* Measures the symbol of a lattice. The first box extends two horizons and two points on each side, since
+ * shape functions couple points at twice the horizon. */
 pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_problem *p)
 {
     pg_status status = PG_OK;

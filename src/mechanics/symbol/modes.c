@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * S (k), its eigenvalues and frequencies for one wave vector, and its limit for long waves. */
+ * The symbol S (k) of a lattice (Fourier transform of its blocks K_0j), its eigenvalues and frequencies for
+ * one wave vector k, and its limit for long waves. */
 #include "symbol.h"
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +8,8 @@
 
 enum { M = PG_UNKNOWNS };
 
-/* cos (a n) and sin (a n) for a = k step. At multiples of pi they are exactly +-1 and 0: at
- * the ends of the zone modes without energy would otherwise get rounding instead of zero. */
+/* cos (a n) and sin (a n) for a = k step. At multiples of pi they are exactly +-1 and 0: at the edges of the
+ * Brillouin zone modes without energy would otherwise get rounding instead of zero. */
 static void phase (double a, int n, double *c, double *s)
 {
     double half = a * n / (4 * atan (1)), whole = nearbyint (half);            /* in units of pi */
@@ -49,8 +50,8 @@ double pg_symbol_amplitude (const pg_symbol *s, const double *k)
     return real;
 }
 
-/* Modes of nearly equal value span a space in which any basis is as good as another: shares of
- * single modes have no meaning there, so each gets their mean. */
+/* Replaces shares of modes with nearly equal values by their mean: such modes span a space in which any basis
+ * is as good as another, so shares of single modes have no meaning. */
 static void level (pg_symbol_modes *o, double scale)
 {
     for (int i = 0, j; i < o->n; i = j) {
@@ -61,9 +62,9 @@ static void level (pg_symbol_modes *o, double scale)
     }
 }
 
-/* The Hermitian matrix A + iB is solved as the real symmetric [A, -B; B, A] of twice the size,
- * which has each eigenvalue twice. Both copies are averaged. Eigenvalues below the rounding of
- * the blocks (1e-14) are set to 0. */
+/* Solves the eigenvalue problem of the Hermitian matrix A + iB as the real symmetric [A, -B; B, A] of twice
+ * the size, which has each eigenvalue twice. Both copies are averaged. Eigenvalues below the rounding of the
+ * blocks (1e-14) are set to 0. */
 void pg_symbol_solve (const pg_symbol *s, const double *k, int weighted, pg_symbol_modes *o)
 {
     double A[M * M], B[M * M], scale[M], W[4 * M * M], value[2 * M], vector[4 * M * M],
@@ -142,8 +143,8 @@ static void acoustic (const pg_symbol *s, const double *e, double *T)
     }
 }
 
-/* D from acoustic tensors: T_aa along a is D_aa, T_bb along a is the shear modulus, and along
- * the diagonal of a and b T_ab = (D_ab + G) / 2. */
+/* D from acoustic tensors T: T_aa along axis a is D_aa, T_bb along a is the shear modulus G, and along the
+ * diagonal of a and b T_ab = (D_ab + G) / 2. */
 void pg_symbol_tangent (const pg_symbol *s, double *D)
 {
     int dim = s->dim, nv = pg_voigt_size (dim);

@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Plane waves of a lattice for all wave vectors of the Brillouin zone: is every motion
- * resisted, how fast is the fastest one, how do long waves travel? The zone is sampled with
- * 240 wave vectors along the axis in 1D, 48 x 48 in 2D and 24^3 in 3D; edges and corners
- * belong to the grid, since instabilities such as the checkerboard lie there. */
+ * Plane waves of a lattice for all wave vectors of the Brillouin zone: has every motion a stiffness, what is
+ * the highest frequency, how fast are long waves? The zone is sampled with 240 wave vectors along the axis
+ * in 1D, 48 x 48 in 2D and 24^3 in 3D; edges and corners belong to the grid, since instabilities such as the
+ * checkerboard lie there. */
 #include "symbol.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
-/* A motion has no energy if its eigenvalue is below 1e-10 of the largest one; it is weak if it
- * meets less than 0.01 of the resistance of a continuum's wave. */
+/* none: a motion with a smaller eigenvalue, relative to the largest one, has no energy; feeble: a motion with
+ * less than this share of the stiffness of a continuum's wave is weak. */
 static const double none = 1e-10, feeble = 1e-2;
 
 /* ---- the zone ------------------------------------------------------------------------------------------ */
-/* One wave vector: its place in the grid, how many vectors of the zone it stands for, k
- * (rad/m), the eigenvalue of the continuum's softest wave, its modes by eigenvalue and by
- * frequency. */
+/* One wave vector: its position in the grid, how many vectors of the zone it represents, k (rad/m), the
+ * eigenvalue of the continuum's softest wave, its modes by eigenvalue (still) and by frequency (moving). */
 typedef struct { int at[3], copies; double k[3], stiffness; pg_symbol_modes still, moving; } sample;
 typedef struct { const pg_symbol *s; sample *list; } work;
 
@@ -43,9 +42,9 @@ static void solve_range (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Wave vectors pi / step times at / (grid / 2) with `at` from 1 - grid / 2 to grid / 2. Of k
- * and - k, whose modes are the same, the one is kept whose first component that is neither 0
- * nor at the edge is positive. */
+/* Samples the wave vectors pi / step times at / (grid / 2) with `at` from 1 - grid / 2 to grid / 2. Of k and
+ * - k, which have the same modes, only the one is kept whose first component that is neither 0 nor at the
+ * edge is positive. */
 static pg_status sample_zone (const pg_symbol *s, int grid, sample **out, size_t *n)
 {
     pg_status status = PG_OK;
@@ -60,7 +59,7 @@ static pg_status sample_zone (const pg_symbol *s, int grid, sample **out, size_t
         for (int a = 0; a < s->dim; a++, rest /= side) {
             x->at[a] = (int) (rest % side) + 1 - grid / 2;
             x->k[a] = pi * x->at[a] / (grid / 2) / s->step[a];
-            if (x->at[a] == 0 || x->at[a] == grid / 2) continue;           /* this one is its own opposite */
+            if (x->at[a] == 0 || x->at[a] == grid / 2) continue;           /* equal to its opposite */
             itself = 0;
             if (!sign) sign = x->at[a];
         }
@@ -74,7 +73,7 @@ done:
 }
 
 /* ---- what is found there ------------------------------------------------------------------------------- */
-/* Mode i of a sample as a motion, with the number of modes of the same value. */
+/* Mode i of a sample as a pg_motion; alike: the number of modes of the same value. */
 static pg_motion motion_of (const sample *x, const pg_symbol_modes *modes, int i, double value, double scale)
 {
     pg_motion m = { { x->k[0], x->k[1], x->k[2] }, value, modes->turning[i], modes->along[i], 0 };
@@ -94,9 +93,9 @@ static int rigid (const sample *x, int i, double largest)
     return x->stiffness == 0 && fabs (x->still.value[i]) <= none * largest && x->still.turning[i] < 0.5;
 }
 
-/* Takes one sample into the survey: extremes of the eigenvalues, those at the edges of the
- * zone (`ends` components at the edge, none `inside`), rotations, and the counts of unstable
- * and weak motions, each counted for k and - k. */
+/* Adds one sample to the survey: extremes of the eigenvalues, those at the edges of the zone (`ends`:
+ * components at the edge; `inside`: between 0 and the edge), rotations, and the counts of unstable and weak
+ * motions, each counted for k and - k. */
 static void look (pg_survey *o, const pg_symbol *s, const sample *x, int grid)
 {
     const pg_symbol_modes *m = &x->still;
@@ -127,9 +126,9 @@ static void look (pg_survey *o, const pg_symbol *s, const sample *x, int grid)
 }
 
 /* ---- long waves ---------------------------------------------------------------------------------------- */
-/* Speeds of waves with a length of 20 spacings over those of the continuum. The longitudinal
- * wave is the mode with most displacement along k; the shear waves are the slowest of the
- * others, since rotations have high frequencies. */
+/* Computes the speeds of waves with a length of 20 spacings over those of the continuum. The longitudinal
+ * wave is the mode with most displacement along k; the shear waves are the slowest of the others, since
+ * rotations have high frequencies. */
 static void travel (pg_survey *o, const pg_symbol *s)
 {
     static const char *const names[] = { "x", "xy", "xyz" };
@@ -144,7 +143,7 @@ static void travel (pg_survey *o, const pg_symbol *s)
             if ((1 - m.turning[i]) * m.along[i] > (1 - m.turning[best]) * m.along[best]) best = i;
         o->wave[d].along = names[d], o->wave[d].longitudinal = m.value[best] / size / w.pressure;
         o->wave[d].shear[0] = o->wave[d].shear[1] = NAN;
-        for (int i = 0; i < m.n && found < s->dim - 1; i++)  /* slow ones first: those that turn are fast */
+        for (int i = 0; i < m.n && found < s->dim - 1; i++)  /* slow modes come first; rotations are fast */
             if (i != best && m.turning[i] < 0.5) o->wave[d].shear[found++] = m.value[i] / size / w.shear;
         if (found == 1) o->wave[d].shear[1] = o->wave[d].shear[0];
     }
@@ -179,7 +178,8 @@ done:
 }
 
 /* ---- path ---------------------------------------------------------------------------------------------- */
-/* The corners of the path in units of pi / step for each dimension. */
+/* Point i of a path through the zone with `leg` points a leg: wave vector k (rad/m), length of the path so
+ * far, and name of a corner. Corners are in units of pi / step, by dimension. */
 size_t pg_symbol_path (const pg_symbol *s, size_t leg, size_t i, double *k, double *length_of,
                        const char **name)
 {

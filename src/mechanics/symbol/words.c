@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A survey in words: what kind of motion, where in the Brillouin zone, and a verdict with a
- * remedy that suits the method at hand. Words are chosen so that a reader without the theory
- * of lattices sees the motion: "checkerboard", "alternating along x", "waves of 3 spacings". */
+ * A survey in words: the kind of motion, where in the Brillouin zone it lies, and a verdict with a remedy
+ * that suits the method. The words let a reader without lattice theory picture the motion: "checkerboard",
+ * "alternating along x", "waves of 3 spacings". */
 #include "symbol.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Beyond a share of 0.9 a motion is called pure. If all directions have the same value, none
- * is named. */
+/* Describes a motion; beyond a share of 0.9 it is called pure. If all directions have the same value, none is
+ * named. */
 const char *pg_motion_kind (const pg_motion *m, const pg_symbol *s)
 {
     double k = fabs (m->k[0]) + fabs (m->k[1]) + fabs (m->k[2]);
@@ -21,7 +21,8 @@ const char *pg_motion_kind (const pg_motion *m, const pg_symbol *s)
                             : "displacement along and across";
 }
 
-/* Components of k at the edge of the zone (|k| = pi / step) alternate from point to point. */
+/* Describes where a wave vector lies: components of k at the edge of the zone (|k| = pi / step) alternate
+ * from point to point. */
 void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t size)
 {
     int ends = 0, inside = 0, axis = 0;
@@ -40,11 +41,10 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
     else snprintf (text, size, "alternating along two axes");
 }
 
-/* Three grades: unstable if a motion gains energy or meets no resistance, weak if one meets
- * less than 0.01 of a continuum's, else stable. The remedy depends on what causes the
- * weakness: nodal integration samples the gradient where it is blind to alternating motions;
- * micropolar constants become negative at a large Poisson's ratio; a small horizon has few
- * bonds. */
+/* The verdict has three grades: unstable if a motion gains energy or has no stiffness, weak if one has less
+ * than 0.01 of a continuum's, else stable. The remedy depends on the cause: nodal integration samples the
+ * gradient where alternating motions do not show; micropolar constants become negative at a large Poisson's
+ * ratio; a small horizon has few bonds. */
 void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem *p, char *text, size_t size)
 {
     char where[64];

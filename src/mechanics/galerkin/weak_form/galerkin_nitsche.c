@@ -547,7 +547,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
 }
 
 /* ---- work_balance -------------------------------------------------------------------------------------- */
-/* A visitor that counts. */
+/* A visitor (`visit`) that counts its calls. */
 static void count_pair (void *context, int set, size_t point, int load, int k, double force,
                         double displacement)
 {
@@ -555,7 +555,7 @@ static void count_pair (void *context, int set, size_t point, int load, int k, d
     ++*(size_t *) context;
 }
 
-/* How many pairs of force and displacement there are, by counting visits. */
+/* Number of pairs of force and displacement of supports and loads, found by counting visits. */
 size_t galerkin_boundary_pairs (galerkin *g)
 {
     size_t n = 0;
@@ -567,8 +567,8 @@ size_t galerkin_boundary_pairs (galerkin *g)
 
 typedef struct { const galerkin *g; pg_work_balance *out; size_t at; } writing;
 
-/* A visitor that writes force and displacement, and sums reactions and their moments by load and component.
- * Forces at points of other ranks count there. */
+/* A visitor that writes force and displacement, and sums up reactions and their moments by load and
+ * component. Forces at points that other ranks own are 0 here. */
 static void write_pair (void *context, int set, size_t point, int load, int k, double force,
                         double displacement)
 {
@@ -582,7 +582,7 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
     w->out->reaction[load * 3 + k] += force;
 }
 
-/* Returns how many pairs were written. */
+/* Writes the pairs of supports, loads and crack pressures, and the reactions; returns the number of pairs. */
 size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out)
 {
     writing w = { g, out, 0 };
@@ -590,7 +590,7 @@ size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, p
     visit_loads (g, t, write_pair, &w);
     for (size_t l = 0; l < g->problem->boundary.nload; l++) {
         if (!g->problem->boundary.load[l].cracks) continue;
-        out->force[w.at] = pressure_at (g, l, t);      /* its displacement is the volume of the cracks */
+        out->force[w.at] = pressure_at (g, l, t);      /* conjugate to the volume of the cracks */
         out->displacement[w.at++] = galerkin_crack_volume (g, d);
     }
     return w.at;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K of the Galerkin form, twice: as a product K x straight from the shape functions (nothing to assemble,
- * nothing to update after a break), and as a sparse matrix, which is made when it is first asked for and
- * whose rows are gathered again when breaking has touched them. */
+ * K of the Galerkin form, in two ways: as a product K x straight from the shape functions (nothing to
+ * assemble, nothing to update after a break), and as a sparse matrix, which is assembled when it is first
+ * needed and of which only those rows are reassembled that breaking bonds changed. */
 #include "galerkin.h"
 #include <string.h>
 
-/* K x: bulk, then supports. */
+/* y = K x: bulk, then supports. */
 void galerkin_apply (void *context, const double *x, double *y)
 {
     galerkin *g = context;
@@ -14,8 +14,8 @@ void galerkin_apply (void *context, const double *x, double *y)
     if (g->supports.nnitsche || g->supports.npenalty) galerkin_boundary_apply (g, x, y);
 }
 
-/* diag K_aa += w B_a' D B_a of the bulk where D couples no shear with anything else: normal and shear
- * moduli times squared derivatives, which is a fraction of the work of the blocks. */
+/* d += diagonal of w B_a' D B_a of the bulk, N/m, where D couples no shear with anything else: normal and
+ * shear moduli times squared derivatives, which is a fraction of the work of the blocks. */
 static void bulk_diagonal (galerkin *g, double *d)
 {
     const pg_rows *r = &g->sums;
@@ -42,8 +42,8 @@ static void bulk_diagonal (galerkin *g, double *d)
 
 typedef void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
 
-/* Adds the diagonal of the blocks K_aa of every point of a family; `make` fills the blocks of node a with
- * the nodes up to itself, of which the last is wanted. `wide` holds a row of blocks. */
+/* d += diagonal of the blocks K_aa of every point of a family; `make` computes the blocks of node a with the
+ * nodes up to itself, of which the last is used. wide: scratch for a row of blocks. */
 static void add_diagonal_blocks (galerkin *g, const pg_family *f, blocks make, double *wide, double *d)
 {
     size_t dim = (size_t) g->dim;
@@ -56,7 +56,7 @@ static void add_diagonal_blocks (galerkin *g, const pg_family *f, blocks make, d
         }
 }
 
-/* Most nodes of a point of a family. */
+/* The largest number of nodes of a point of a family. */
 static size_t widest (const pg_family *f)
 {
     size_t most = 0;
@@ -65,8 +65,8 @@ static size_t widest (const pg_family *f)
     return most;
 }
 
-/* After the boundary: room for one row of blocks of any source, marks of stale rows, and the operator by
- * which iterations use K. */
+/* Allocates room for one row of blocks of any source and marks of stale rows, and makes the operator by which
+ * iterations use K. Needs the boundary. */
 pg_status galerkin_operator_create (galerkin *g)
 {
     galerkin_stiffness *k = &g->stiffness;
@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* Shears couple with nothing in D: bulk_diagonal counts all there is. */
+/* Are all materials isotropic? Then shears couple with nothing in D, and bulk_diagonal is complete. */
 static int all_isotropic (const pg_problem *p)
 {
     for (size_t m = 0; m < p->nmaterial; m++)
@@ -91,7 +91,7 @@ static int all_isotropic (const pg_problem *p)
     return 1;
 }
 
-/* Kept until bonds change. */
+/* Diagonal of K, N/m; the stored one until K has a new revision. */
 void galerkin_diagonal (void *context, double *d)
 {
     galerkin *g = context;
@@ -115,16 +115,17 @@ void galerkin_diagonal (void *context, double *d)
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
-/* The rows of K of all nodes that a touched point sees become stale: its shape functions have changed at
- * each of them. */
+/* Marks the rows of K of all nodes in the family of a touched point as stale: its shape functions have
+ * changed. */
 static void mark_family (galerkin *g, int set, size_t p)
 {
     const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stiffness.stale[f->node[e]] = 1;
 }
 
-/* count: how many points of each set were touched (g->list). Facets and nodes matter only where something
- * is prescribed there. A new revision tells preconditioners and factors that K is another one. */
+/* Marks the rows of K that the touched points (g->list, `count` in each set) contribute to. Facets and nodes
+ * matter only where something is prescribed there. A new revision shows preconditioners and factors that K
+ * has changed. */
 void galerkin_mark_stale (galerkin *g, const size_t *count)
 {
     galerkin_supports *c = &g->supports;
@@ -138,8 +139,9 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
     g->stiffness.revision += marked > 0;
 }
 
-/* Sources of blocks: bulk (cell by cell with consistent integration, whose derivatives join all points of
- * a cell), facets, nodes under a penalty, patches of the dilatation. */
+/* Creates the matrix with its sources of blocks: bulk (cell by cell with consistent integration, whose
+ * derivatives couple all points of a cell), facets, nodes under a penalty, patches of the dilatation. known:
+ * the bulk's part of K, if available. */
 static pg_status create_matrix (galerkin *g, const pg_assembly *known)
 {
     pg_assembly_source source[4];
@@ -167,7 +169,7 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
     return pg_assembly_create (&g->stiffness.K, g->n, g->dim, n, source);
 }
 
-/* Only rows that broken bonds have changed are gathered again. */
+/* Assembles K: at first all rows, then only the stale ones, which broken bonds have changed. */
 static pg_status assemble (galerkin *g)
 {
     galerkin_stiffness *k = &g->stiffness;
@@ -186,7 +188,7 @@ static pg_status assemble (galerkin *g)
     k->all_stale = 0;
     memset (k->stale, 0, g->n);
 done:
-    if (status != PG_OK && known) pg_assembly_free (&k->K);            /* which still looks at it */
+    if (status != PG_OK && known) pg_assembly_free (&k->K);            /* K still refers to `known` */
     pg_free (node);
     pg_assembly_free (&known);
     return status;
@@ -198,14 +200,14 @@ pg_status galerkin_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
     pg_status status = PG_OK;
     galerkin *g = self;
     if (want == PG_MATRIX_ASSEMBLED) PG_TRY (assemble (g));
-    if (want == PG_MATRIX_FREED) pg_assembly_free (&g->stiffness.K);             /* with its lists */
+    if (want == PG_MATRIX_FREED) pg_assembly_free (&g->stiffness.K);           /* including its index lists */
     *K = g->stiffness.K ? pg_assembly_matrix (g->stiffness.K) : &none;
 done:
     return status;
 }
 
 /* ---- consistent mass ----------------------------------------------------------------------------------- */
-/* M_ab = int rho N_a N_b */
+/* out (m) = contribution of point p to M_ab = int rho N_a N_b, kg */
 static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     const galerkin *g = context;
@@ -215,7 +217,8 @@ static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *ou
     for (size_t b = 0; b < m; b++) out[b] = share * N[b];
 }
 
-/* Made once, of the bonds that live then: breaking moves no mass. */
+/* Consistent mass matrix, kg, made once with the bonds intact at that time: breaking bonds does not change
+ * it. */
 pg_status galerkin_consistent_mass (galerkin *g, const pg_sparse **M)
 {
     galerkin_stiffness *k = &g->stiffness;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a point is for loads and supports. Shape functions that reproduce linear fields give the
- * displacement at the point itself. Those of a point that sees too few nodes, or too flat a set, reproduce
- * constants alone, and of a linear field they give the value at the mean place of these nodes, sum N_j x_j.
- * What is prescribed is therefore taken there, and forces have their moments there: supports that move as a
- * rigid body then strain nothing, and forces and moments balance, whatever cracks have left of a point's
- * nodes. One that sees no node does not move, and nothing can hold it. */
+ * Effective position of a point for loads and supports. Shape functions that reproduce linear fields give
+ * the displacement at the point itself. Where a point has too few neighbours, or neighbours on a line or
+ * plane, they reproduce constants only, and of a linear field they give the value at the weighted mean
+ * position of these nodes, sum N_j x_j. Prescribed values are therefore taken there, and moments of forces
+ * too: supports that move as a rigid body then cause no strain, and forces and moments balance, whatever
+ * nodes cracks have left to a point. A point without any neighbour does not move, and cannot be
+ * constrained. */
 #include "galerkin.h"
 #include <string.h>
 

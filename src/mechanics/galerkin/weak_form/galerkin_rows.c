@@ -1,44 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Rows of shape functions: N, dN and w of every node and evaluation point, evaluated anew where bonds break.
  *
- * On a lattice almost all points have the row of some other one, to the last bit, as bonds are rounded before
- * anything is computed of them (discretization/approx/congruent.h). A block of 993 000 unknowns has 93
- * million bonds, 40
- * bytes each, but some thousand different rows. Different rows are therefore kept once, with the number of
- * points that read each, and of a point only where its row begins (pg_rows.at): loops over all points find
- * them in the caches. What is evaluated stands aside at first; of each row the kept ones are asked, by a
- * fingerprint and bit by bit, for an equal one. A row that nobody reads any more makes room for the next one
- * with as many bonds. No answer changes: what is shared is what would have been stored. Where rows are
- * corrected after they have been evaluated (consistent integration, stabilisation), of irregular points, of
- * facets, and in plain runs each point has a row of its own.
+ * On a lattice almost all points have the same row as some other one, bit by bit, as bonds are rounded
+ * before anything is computed of them (discretization/approx/congruent.h). A block of 993 000 unknowns has
+ * 93 million bonds, 40 bytes each, but some thousand different rows. Different rows are therefore stored
+ * once, with the number of points that use each, and for each point only where its row begins (pg_rows.at):
+ * loops over all points find them in the caches. New rows are evaluated in a buffer first; an equal stored
+ * one is searched by a fingerprint and compared bit by bit. A row that no point uses any more is reused for
+ * the next one with as many bonds. No result changes: what is shared is what would have been stored. Where
+ * rows are corrected after they have been evaluated (consistent integration, stabilisation), of irregular
+ * points, of facets, and in runs without shortcuts (pg_problem.plain) each point has a row of its own.
  *
- * The patch test evaluates the rows of the intact body before a run begins, on the bare problem, which shares
- * nodes and points of evaluation with the run's own (pg_problem_bare). Where nothing is to break it wants
- * them kept (pg_problem.intact), and its force leaves them to the problem when it is freed; where it has
- * assembled K, and the material is that of the run, the part of the evaluation points as well. Forces on the
- * problem read these rows, the same from the same numbers to the same bits. Should a bond break after all,
- * they give them back, and evaluate their own. */
+ * The patch test evaluates the rows of the intact body before a run begins, on the bare problem, which
+ * shares nodes and evaluation points with the run's own (pg_problem_bare). If no bond is going to break it
+ * asks for them to be kept (pg_problem.intact), and its force leaves them to the problem when it is freed;
+ * where it has assembled K, and the material is that of the run, the part of the evaluation points as well.
+ * Forces of the run use these rows, which are bit by bit what they would compute. Should a bond break after
+ * all, they return them, and evaluate their own. */
 #include "galerkin.h"
 #include <string.h>
 
-/* Points that are evaluated at a time; numbers of a row that its fingerprint is made of. */
+/* PART: points that are evaluated at a time. PRINTS: numbers of a row that enter its fingerprint. */
 enum { PART = 16384, PRINTS = 12 };
 
-/* A kept row: its first bond in the list, their number, how many points read it, its fingerprint; the next
- * one in its chain, + 1. */
+/* A stored row: its first bond in the list, their number, how many points use it, its fingerprint; number of
+ * the next row of its chain + 1. */
 typedef struct { size_t at, bonds, readers; uint64_t print; int next; } kept_row;
 
-/* Numbers of rows are + 1; 0: none. */
+/* Storage of different rows; numbers of rows below are + 1; 0: none. */
 struct galerkin_store {
     kept_row *row;  size_t n, cap;
-    size_t   bonds, cap_N, cap_dN, cap_w;              /* of all kept rows; room for their values */
+    size_t   bonds, cap_N, cap_dN, cap_w;          /* bonds of all stored rows; capacities for their values */
     int     *of;                                       /* the row of each point */
-    int     *chain;  size_t chains;                    /* by fingerprint; a power of two */
-    int     *vacant;                                   /* by bonds: rows that nobody reads */
-    size_t   most;                                     /* bonds of a point */
+    /* first row of each chain, by fingerprint; number of chains, a power of 2 */
+    int     *chain;  size_t chains;
+    int     *vacant;                                   /* unused rows, chained, by number of bonds */
+    size_t   most;                                     /* most bonds of a point */
 };
 
-/* Are all bonds of a set alive? */
+/* Are all bonds of a set intact? */
 static int all_alive (const galerkin *g, int set, const pg_state *state)
 {
     const pg_family *f = &g->rows[set].family;
@@ -46,7 +46,7 @@ static int all_alive (const galerkin *g, int set, const pg_state *state)
     return !bonds || !memchr (state->alive + g->problem->bonds.first[set], 0, bonds);
 }
 
-/* Where sums are over the rows of the set itself they follow these. */
+/* Updates g->sums where it refers to the rows of the bulk set. */
 static void follow (galerkin *g)
 {
     if (g->problem->form.consistency) g->sums.grade = g->rows[g->bulk].grade;
@@ -79,7 +79,7 @@ done:
     return status;
 }
 
-/* The kept row that has the values of row p of `from`; 0: there is none. */
+/* The stored row that equals row p of `from`; 0: there is none. */
 static int find_row (const galerkin_store *s, const pg_rows *r, const pg_rows *from, size_t p, uint64_t print)
 {
     size_t dim = (size_t) r->dim, m = r->family.start[p + 1] - r->family.start[p], at = from->at[p];
@@ -95,7 +95,7 @@ static int find_row (const galerkin_store *s, const pg_rows *r, const pg_rows *f
     return k;
 }
 
-/* Point p no longer reads its row, which is vacant once nobody does. */
+/* Point p no longer uses its row; if no other point does, the row becomes free for reuse. */
 static void leave_row (galerkin_store *s, size_t p)
 {
     int k = s->of[p], *link;
@@ -108,7 +108,7 @@ static void leave_row (galerkin_store *s, size_t p)
     q->next = s->vacant[q->bonds], s->vacant[q->bonds] = k;
 }
 
-/* A row for m bonds, which nobody reads yet: a vacant one, or one more. */
+/* Finds a row for m bonds that no point uses: a free one, or a new one. */
 static pg_status new_row (galerkin_store *s, pg_rows *r, size_t m, int *k)
 {
     pg_status status = PG_OK;
@@ -127,7 +127,7 @@ done:
     return status;
 }
 
-/* Point p reads from now on what it has in `from`: where an equal row is kept, or in one that is new. */
+/* Makes point p use the row that equals its values in `from`: a stored one, or a new one. */
 static pg_status keep_row (galerkin_store *s, pg_rows *r, const pg_rows *from, size_t p)
 {
     pg_status status = PG_OK;
@@ -159,7 +159,7 @@ static void forget_values (galerkin *g, int set)
     store_free (&g->store[set]);
 }
 
-/* Evaluates rows of a set, part by part, and keeps each once. */
+/* Evaluates rows of a set, part by part, and stores equal ones once. */
 static pg_status evaluate_shared (galerkin *g, const unsigned char *alive, int set, size_t count,
                                   const size_t *list)
 {
@@ -216,7 +216,7 @@ pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t
     pg_rows *r = &g->rows[set];
     int shared = p->form.approx.congruent && !p->plain && !p->form.consistency && !(g->options->silling > 0)
                  && set != PG_FACETS;
-    if (!r->N || !r->dN || !r->w) list = NULL;         /* of none of them values are known */
+    if (!r->N || !r->dN || !r->w) list = NULL;         /* no values are known yet: evaluate all */
     if (!list) count = r->n;
     if (!list && shared) forget_values (g, set);
     if (!r->grade) PG_ALLOC (r->grade, r->n);
@@ -236,7 +236,8 @@ static void move_values (pg_rows *to, pg_rows *from)
     from->N = from->dN = from->w = NULL, from->at = NULL, from->grade = NULL;
 }
 
-/* Boundary facets of the bare problem are others than those of the run: only nodes and points are kept. */
+/* Leaves the rows of nodes and evaluation points to the problem, and K if wanted; not those of facets, as the
+ * bare problem has other facets than the run. */
 static void lend (galerkin *g)
 {
     pg_intact *kept = g->problem->quality.intact;
@@ -276,8 +277,8 @@ void galerkin_rows_free (galerkin *g)
 
 int galerkin_borrows (const galerkin *g, int set) { return g->borrows && set != PG_FACETS; }
 
-/* Forces on one problem may ask at the same time: one gets it, the others assemble themselves, to the same
- * bits. */
+/* Takes the bulk's part of K from the problem. Of several forces on one problem one gets it, the others
+ * assemble it themselves, with the same bits. */
 pg_assembly *galerkin_take_stiffness (const galerkin *g)
 {
     return g->borrows ? __atomic_exchange_n (&g->problem->quality.intact->K, NULL, __ATOMIC_ACQ_REL) : NULL;

@@ -1,35 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Runs: evaluation points that are alike, summed eight at a time.
+ * Runs: evaluation points with the same shape functions, summed eight at a time.
  *
- * On a lattice most cells have the same shape functions as the cell beside them: at every evaluation point
- * the same derivatives, for nodes whose numbers are one higher. A run is a row of such cells. Its derivatives
- * are read from its first cell only, so that a product K x reads hardly more than x itself, and eight cells
- * are summed at once: as the nodes of cell k have the numbers of those of the first plus k, the values that
- * eight cells need lie side by side in memory, one component after the other in arrays of their own.
+ * On a lattice most cells have the same shape functions as the next cell: at every evaluation point the same
+ * derivatives, for nodes whose numbers are one higher. A run is a row of such cells. Its derivatives are
+ * read from its first cell only, so that a product K x reads hardly more than x itself, and eight cells are
+ * summed at once: as the nodes of cell k have the numbers of those of the first plus k, the values that
+ * eight cells need lie side by side in memory, in one array for each component.
  *
- *     1. For every point q of eight cells: H = sum_j d_j dN_j', strain, stress times weight.
- *     2. For every node j that the cell sees: f_j += sum_q s_q dN_qj, over all points that see it, with one
- *        addition to memory for all of them.
+ *   1. For every point q of eight cells: H = sum_j d_j dN_j', strain, stress times weight.
+ *   2. For every node j in the families of a cell's points: f_j += sum_q s_q dN_qj, over all these points,
+ *      with one addition to memory for all of them.
  *
- * Points of a cell are a group; with nodal integration, each point is one. Whether two groups are alike is
- * found by comparing their rows, number by number: bodies with holes, cracks, cut cells, broken bonds and
- * materials need no rule of their own, and what is like nothing else is summed point by point. Derivatives
- * may differ by 1e-11 of the largest of their point, which is what rounding of positions makes of them. The
- * runs are a function of the rows alone, so that a run that goes on from a checkpoint has the same ones; a
- * slice of the points looks for them again where one of its rows has changed. */
+ * The points of a cell are a group; with nodal integration, each point is one. Equal groups are found by
+ * comparing their rows, number by number: bodies with holes, cracks, cut cells, broken bonds and several
+ * materials need no special treatment, and points like no others are summed one by one. Derivatives may
+ * differ by 1e-11 of the largest of their point, which rounding of positions causes. The runs are a function
+ * of the rows alone, so that a run resumed from a checkpoint has the same ones; a slice of the points
+ * searches them again where one of its rows has changed. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Groups of a run at least: fewer are not worth the lanes that stay empty. Points of a group at most. */
+/* LEAST: fewest groups of a run: fewer are not worth the empty lanes. MOST: most points of a group. */
 enum { LANES = GALERKIN_LANES, LEAST = 3, MOST = 27 };
 static const double rounding = 1e-11;
 
 #define INLINE static inline __attribute__ ((always_inline))
 /* ---- which groups are alike ---------------------------------------------------------------------------- */
-/* The end of the group that begins with point p: points of the same cell, or p alone; 0: too many, or cut off
- * by the ends of the range, which is the caller's. */
+/* The end of the group that begins with point p: the points of its cell, or p alone; 0: there are too many,
+ * or the range first .. last - 1 does not contain them all. */
 static size_t group_end (const pg_rows *r, size_t first, size_t last, size_t p)
 {
     size_t end = p + 1;
@@ -40,7 +40,7 @@ static size_t group_end (const pg_rows *r, size_t first, size_t last, size_t p)
     return cut || end - p > MOST ? 0 : end;
 }
 
-/* Largest derivative of a point. */
+/* Largest derivative of a shape function at point p, 1/m. */
 static double steepest (const pg_rows *r, size_t p)
 {
     double most = 0;
@@ -50,8 +50,8 @@ static double steepest (const pg_rows *r, size_t p)
     return most;
 }
 
-/* Has point p the derivatives of point q, up to rounding, for nodes that are `shift` higher? bound: by how
- * much they may differ, negative until it is known. */
+/* Has point p the derivatives of point q, up to rounding, for nodes whose numbers are `shift` higher? bound:
+ * largest difference allowed; negative: not yet computed. */
 static int alike (const galerkin *g, size_t q, size_t p, int shift, double *bound)
 {
     const pg_rows *r = &g->sums;
@@ -71,7 +71,7 @@ static int alike (const galerkin *g, size_t q, size_t p, int shift, double *boun
     return same == m * dim;
 }
 
-/* Are also the weights of the bonds equal, and the own node? */
+/* Are the influences of the bonds, the own node and the grade equal, too? */
 static int weighs_alike (const galerkin *g, size_t q, size_t p, int shift)
 {
     const pg_rows *r = &g->sums;
@@ -83,7 +83,7 @@ static int weighs_alike (const galerkin *g, size_t q, size_t p, int shift)
     return same == m && r->own[p] == r->own[q] + shift && r->grade[p] == r->grade[q];
 }
 
-/* How many groups from point p on, up to `last`, are like the first, which ends at `end`. */
+/* Number of groups from point p on, up to point `last`, that equal the first one, which ends at `end`. */
 static size_t count_alike (const galerkin *g, size_t p, size_t end, size_t last)
 {
     double bound[MOST];
@@ -105,11 +105,12 @@ static int compare (const void *a, const void *b)
     const galerkin_entry *x = a, *y = b;
     if (x->place != y->place) return (x->place > y->place) - (x->place < y->place);
     if (x->node != y->node) return (x->node > y->node) - (x->node < y->node);
-    return (x->point > y->point) - (x->point < y->point);  /* not where its values happen to be */
+    return (x->point > y->point) - (x->point < y->point);  /* by point, not by memory address */
 }
 
-/* Lists the bonds of the first group by their nodes. Nodes whose numbers follow each other are far apart in
- * the list: their eight places in memory overlap, and an addition would wait for the one before. */
+/* Lists the bonds of the first group ordered by their nodes. Nodes with consecutive numbers are put far apart
+ * in the list: their eight values in memory overlap, and an addition would have to wait for the one
+ * before. */
 static pg_status list_entries (const galerkin *g, galerkin_run_list *l, galerkin_run *run)
 {
     pg_status status = PG_OK;
@@ -131,7 +132,7 @@ done:
     return status;
 }
 
-/* Have N and dN of all groups the bits of the group before? Rows that move later keep their bits as long as
+/* Have N and dN of all groups the same bits? Rows that are moved in memory later keep their bits as long as
  * the run is not stale. */
 static int has_one_row (const pg_rows *r, const galerkin_run *run)
 {
@@ -157,7 +158,7 @@ done:
     return status;
 }
 
-/* From left to right: the longest run that begins at a group, or the group is left to itself. */
+/* Finds the runs from left to right: the longest one that begins at a group, or the group stays alone. */
 static pg_status find_runs (const galerkin *g, galerkin_run_list *l)
 {
     pg_status status = PG_OK;
@@ -171,7 +172,8 @@ done:
     return status;
 }
 
-/* Without memory there are no runs, and all points are summed one by one. */
+/* Finds the runs if the list is stale. Without memory there are none, and all points are summed one by
+ * one. */
 void galerkin_runs_find (const galerkin *g, galerkin_run_list *l)
 {
     if (!l->stale) return;
@@ -186,9 +188,8 @@ void galerkin_runs_clear (galerkin_run_list *l)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* Strains of eight cells at their point p: xx yy zz xy yz zx, shears twice the tensor's; u: displacements
- * (NULL: not wanted). The operations of each are those of the point by itself (galerkin_slices.h), in their
- * order. */
+/* Strains e of eight cells at their point p: xx yy zz xy yz zx, engineering shears; u: displacements (NULL:
+ * not wanted). Each lane has the same operations in the same order as a single point (galerkin_slices.h). */
 INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e, eight *u)
 {
     const pg_rows *r = &b->g->sums;
@@ -210,7 +211,8 @@ INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e, eight *u
     if (u) u[0] = ux, u[1] = uy, u[2] = uz;
 }
 
-/* Strains of eight cells at their point p in 2D: xx yy xy, shear twice the tensor's; u: displacements. */
+/* Strains e of eight cells at their point p in 2D: xx yy xy, engineering shear; u: displacements (NULL: not
+ * wanted). */
 INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e, eight *u)
 {
     const pg_rows *r = &b->g->sums;
@@ -229,7 +231,8 @@ INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e, eight *u
     if (u) u[0] = ux, u[1] = uy;
 }
 
-/* Stress times weight of point q of eight cells (nv, as the strain). Lanes beyond the run have weight 0. */
+/* s: stress times weight of point q of eight cells (nv, ordered as the strain). Lanes beyond the run have
+ * weight 0. */
 INLINE void stress_of (int dim, const galerkin_bundle *b, size_t q, eight *s)
 {
     const pg_rows *r = &b->g->sums;
@@ -247,14 +250,14 @@ INLINE void stress_of (int dim, const galerkin_bundle *b, size_t q, eight *s)
     }
 }
 
-/* One bundle: stresses of all points, then forces node by node. */
+/* Sums up one bundle of eight groups: stresses of all points, then forces node by node. */
 INLINE void sum_bundle (int dim, const galerkin_bundle *b)
 {
     const pg_rows *r = &b->g->sums;
     size_t nv = dim == 3 ? 6 : 3;
     const galerkin_entry *e = b->entry, *end = e + b->run->entries;
     eight stress[6 * MOST];
-    const double *row[MOST];                           /* of the first group, wherever they are kept now */
+    const double *row[MOST];                          /* rows of the first group, where they are stored now */
     for (size_t q = 0; q < b->run->points; q++) {
         stress_of (dim, b, q, stress + nv * q);
         row[q] = r->dN + pg_rows_offset (r, b->run->point + q) * (size_t) dim;
@@ -280,7 +283,7 @@ INLINE void sum_bundle (int dim, const galerkin_bundle *b)
 PG_WIDEST static void sum_solid (const galerkin_bundle *b) { sum_bundle (3, b); }
 PG_WIDEST static void sum_plane (const galerkin_bundle *b) { sum_bundle (2, b); }
 
-/* Is any point of the lanes at hand in an active block? */
+/* Is a point of the bundle's groups in an active block? */
 static int is_active (const galerkin_bundle *b, const unsigned char *active)
 {
     size_t first = b->run->point + b->lane * b->run->points, last = first + b->left * b->run->points - 1;
@@ -301,14 +304,14 @@ void galerkin_run_sum (const galerkin *g, const galerkin_run_list *l, const gale
     }
 }
 
-/* Of `left` points, `points` apart from the first on: n numbers of each. */
+/* Writes n numbers of each lane to the points of a bundle, from point p on, b->run->points apart. */
 INLINE void scatter (const galerkin_bundle *b, size_t n, const eight *from, size_t p, double *to)
 {
     for (size_t k = 0; k < b->left; k++, p += b->run->points)
         for (size_t i = 0; i < n; i++) to[p * n + i] = from[i][k];
 }
 
-/* u and strain of one bundle. */
+/* Computes u and strain of the points of one bundle. */
 INLINE void strain_bundle (int dim, const galerkin_bundle *b, double *u, double *strain)
 {
     for (size_t q = b->run->point, p = q + b->lane * b->run->points; q < b->run->point + b->run->points;

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points see which nodes, in blocks: of nodal values that are zero in most of the body, or have changed
- * in a small part of it only, most points need not be looked at. Blocks are numbers that follow each other,
- * so that no geometry is asked for: of nodes NODES, of points GALERKIN_BLOCK. The table is of the families,
- * dead bonds and all, and holds for a whole run. */
+ * Table of the points that have a node in their families, in blocks: where nodal values are zero in most of
+ * the body, or have changed in a small part of it only, most points can be skipped. Blocks are consecutive
+ * numbers (NODES nodes, GALERKIN_BLOCK points), so that no geometry is needed. The table includes broken
+ * bonds and is valid for the whole run. */
 #include "galerkin.h"
 #include <string.h>
 
 enum { NODES = 2, POINTS = GALERKIN_BLOCK };
 
-/* Block b of nodes is seen by the blocks of points sees[start[b]] .. sees[start[b + 1] - 1], of n. */
+/* Block b of nodes is in the families of the blocks of points sees[start[b]] .. sees[start[b + 1] - 1], of
+ * n. */
 struct galerkin_sight {
-    size_t  n, nodes, *start;                          /* nodes: blocks of nodes */
+    size_t  n, nodes, *start;                          /* nodes: number of blocks of nodes */
     int    *sees;
-    /* scratch: 1 for each block of nodes, and of points, that is to be looked at */
+    /* scratch: 1 for each block of nodes with (changed) values, and for each block of points that depends on
+     * one */
     unsigned char *node, *active;
 };
 
@@ -31,9 +33,9 @@ void galerkin_sight_free (galerkin *g)
         g->measured.sight[set] = NULL;
 }
 
-/* Visits the pairs of blocks that see each other, in the order of the blocks of points: counts them in
- * start[b + 1] of the block of nodes (sees NULL), or enters them from start[b] on, which then is where the
- * next one would be. last: of every block of nodes the last block of points + 1 that saw it. */
+/* Visits the pairs of blocks joined by bonds, in the order of the blocks of points: counts them in start[b +
+ * 1] of the block of nodes (sees NULL), or enters them from start[b] on, which is advanced. last: number + 1
+ * of the last block of points visited for every block of nodes. */
 static void visit_pairs (galerkin_sight *s, const pg_family *f, size_t *last, int *sees)
 {
     memset (last, 0, s->nodes * sizeof *last);
@@ -74,7 +76,7 @@ done:
     return status;
 }
 
-/* Before the first measure of a set all of it is new: it needs no table yet. */
+/* Makes the tables that are missing. Before its first measure a set needs none, as all its points are new. */
 pg_status galerkin_sight_ready (galerkin *g, int products)
 {
     pg_status status = PG_OK;
@@ -86,7 +88,7 @@ done:
     return status;
 }
 
-/* Marks blocks of nodes whose values differ from those of `other` (NULL: from zero). Returns how many. */
+/* Marks blocks of nodes where x differs from `other` (NULL: from zero). Returns how many. */
 static size_t mark_nodes (const galerkin *g, const double *x, const double *other, unsigned char *mark)
 {
     size_t marked = 0, width = NODES * (size_t) g->dim, ndof = g->n * (size_t) g->dim;
@@ -104,7 +106,7 @@ unsigned char *galerkin_active (galerkin *g, int set, const double *x, const dou
 {
     galerkin_sight *s = g->measured.sight[set];
     if (!s || !s->sees) return NULL;
-    /* where much has changed all is looked at */
+    /* where more than half has changed no block is skipped */
     if (2 * mark_nodes (g, x, other, s->node) > s->nodes) return NULL;
     memset (s->active, 0, s->n);
     for (size_t b = 0; b < s->nodes; b++)

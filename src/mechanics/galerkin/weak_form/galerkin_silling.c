@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Products and forces of bodies under Silling's stabilisation (Silling 2017; doc/method.md D3a), where
- * evaluation points are nodes. With eta_j = d_j - d_own, H = sum_j eta_j g_j' (g_j: derivatives of the shape
- * functions), z_j = eta_j - H xi_j and the energy (1/2) c sum_j w_j |z_j|^2 of a point, its forces are
+ * Products K x and forces of bodies with Silling's stabilisation (Silling 2017; doc/method.md D3a), where
+ * the evaluation points are the nodes. With eta_j = d_j - d_own, H = sum_j eta_j g_j' (g_j: derivatives of
+ * the shape functions), z_j = eta_j - H xi_j and the energy (1/2) c sum_j w_j |z_j|^2 of a point, its forces
+ * are
  *
- *     f_j = c (w_j z_j - M g_j),   M = sum_j w_j z_j xi_j' = sum_j w_j eta_j xi_j' - H A,
- *     A = sum_j w_j xi_j xi_j',
+ *    f_j = c (w_j z_j - M g_j),   M = sum_j w_j z_j xi_j' = sum_j w_j eta_j xi_j' - H A,
+ *    A = sum_j w_j xi_j xi_j',
  *
- * less their sum at the own node. A, q = sum_j w_j |xi_j|^2 and sum_j w_j xi_j depend on the bonds alone and
- * are kept. Two passes over the bonds do, one for H and M, one for the forces, and the stress goes with the
- * second: f_j = T g_j + c w_j z_j with T = weight sigma - c M. The own node takes part like all others: its
+ * minus their sum at the own node. A, q = sum_j w_j |xi_j|^2 and sum_j w_j xi_j depend on the bonds alone
+ * and are stored. Two passes over the bonds suffice, one for H and M, one for the forces, which include the
+ * stress: f_j = T g_j + c w_j z_j with T = weight sigma - c M. The own node is treated like all others: its
  * eta and its w are zero, and its g is minus the sum of those of the others. */
 #include "galerkin.h"
 #include <string.h>
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* What is kept of each point: A (3 x 3), sum of w xi (3), c over the weight of the point, Pa / m^5. */
+/* Stored numbers of each point: A (3 x 3), sum of w xi (3), c over the weight of the point, Pa / m^5. */
 enum { A = 0, WXI = 9, C = 12, KEPT = 13 };
 
-/* Strength Gs mu of a point: none where it carries no stress. */
+/* Strength Gs mu of a point, Pa; 0 where it carries no stress. */
 double galerkin_silling_modulus (const galerkin *g, size_t p)
 {
     const pg_material *m = galerkin_material (g, g->bulk, p);
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->options->silling * m->mu;
 }
 
-/* The sums of point p over its live bonds. */
+/* kept: the sums of point p over its intact bonds. */
 static void keep_point (const galerkin *g, size_t p, double *kept)
 {
     const pg_rows *r = &g->sums;
@@ -44,7 +45,7 @@ static void keep_point (const galerkin *g, size_t p, double *kept)
     if (q > 0) kept[C] = galerkin_silling_modulus (g, p) * (double) (dim * (dim + 2)) / q;
 }
 
-/* Room, and places with four numbers a node; nothing without stabilisation. */
+/* Allocates memory, and positions with four numbers a node; nothing without stabilisation. */
 pg_status galerkin_silling_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -60,7 +61,7 @@ done:
 
 void galerkin_silling_free (galerkin *g) { pg_free (g->kept), pg_free (g->place); }
 
-/* The rows of these points have changed (list NULL: of all). */
+/* Computes the stored sums of listed points, whose rows have changed (list NULL: of the first `count`). */
 void galerkin_silling_update (galerkin *g, size_t count, const size_t *list)
 {
     for (size_t i = 0; g->kept && i < count; i++) {
@@ -70,7 +71,7 @@ void galerkin_silling_update (galerkin *g, size_t count, const size_t *list)
 }
 
 /* ---- one point ----------------------------------------------------------------------------------------- */
-/* weight sigma as a matrix, column by column; s in Voigt order, or NULL: sigma of the gradient H. */
+/* T: weight sigma as a matrix, column by column; s: sigma in Voigt order, or NULL: that of the gradient H. */
 INLINE void stress_columns (int dim, const galerkin *g, size_t p, const double *s, const four *H, four *T)
 {
     double own[6], e[6], w = g->sums.weight[p];
@@ -95,8 +96,8 @@ INLINE void stress_columns (int dim, const galerkin *g, size_t p, const double *
     else T[0] = (four) { w * s[0], 0, 0, 0 };
 }
 
-/* Forces of point p into f (4 numbers a node, from node `low` on) for nodal values x (4 numbers a node); s:
- * its stress, or NULL: that of x. Column b of a matrix is a vector. */
+/* Adds the forces of point p to f (4 numbers a node, from node `low` on) for nodal values x (4 numbers a
+ * node); s: its stress, or NULL: that of x. Each column of a matrix is a vector. */
 INLINE void sum_point (int dim, const galerkin *g, size_t p, const double *s, const double *x, double *f,
                        size_t low)
 {
@@ -130,7 +131,7 @@ INLINE void sum_point (int dim, const galerkin *g, size_t p, const double *s, co
     *(four *) (f + 4 * (own - low)) -= c * sum;
 }
 
-/* Points first .. last - 1; stress: 3 or 6 numbers a point, NULL: of x. */
+/* Adds the forces of points first .. last - 1; stress: 6 numbers a point, NULL: those of x. */
 PG_WIDE static void sum_solid (const galerkin *g, size_t first, size_t last, const double *stress,
                             const double *x, double *f, size_t low)
 {
@@ -143,7 +144,7 @@ PG_WIDE static void sum_plane (const galerkin *g, size_t first, size_t last, con
     for (size_t p = first; p < last; p++) sum_point (2, g, p, stress ? stress + 3 * p : NULL, x, f, low);
 }
 
-/* On a line H is one number, and the vectors are used for one component. */
+/* In 1D H is one number, and the vectors are used for one component. */
 static void sum_line (const galerkin *g, size_t first, size_t last, const double *stress, const double *x,
                       double *f, size_t low)
 {
@@ -157,11 +158,12 @@ void galerkin_silling_sum (const galerkin *g, size_t first, size_t last, const d
 }
 
 /* ---- eight points that are alike ----------------------------------------------------------------------- */
-/* Row a, column b of a matrix is number 3 a + b; w: weights of the points, 0 beyond the run. */
+/* Values of eight points: entry (a, b) of a matrix has number 3 a + b; w: weights of the points, 0 beyond the
+ * run. */
 typedef struct { eight H[9], T[9], own[3], w, c; } eight_points;
 
-/* Displacement gradients H and T = weight sigma - c M (file head) of eight points, by a first pass over their
- * bonds; sum: sum_j w_j z_j. */
+/* First pass over the bonds of eight points: displacement gradients H and T = weight sigma - c M (head of the
+ * file); sum: sum_j w_j z_j. */
 INLINE void first_pass (int dim, const galerkin_bundle *b, eight_points *e, eight *sum)
 {
     const galerkin *g = b->g;
@@ -202,7 +204,7 @@ INLINE void first_pass (int dim, const galerkin_bundle *b, eight_points *e, eigh
         for (int c = 0; c < dim; c++) sum[a] -= kept[WXI + c] * e->H[3*a + c];
 }
 
-/* Second pass: forces node by node. */
+/* Second pass over the bonds: adds the forces of eight points, node by node. */
 INLINE void sum_eight (int dim, const galerkin_bundle *b)
 {
     const galerkin *g = b->g;
@@ -236,8 +238,8 @@ PG_WIDEST static void eight_plane (const galerkin_bundle *b) { sum_eight (2, b);
 void galerkin_silling_bundle (const galerkin_bundle *b) { (b->g->dim == 3 ? eight_solid : eight_plane) (b); }
 
 /* ---- energy -------------------------------------------------------------------------------------------- */
-/* Energy of point p at displacement d (dim numbers a node): z is small against eta, and its square is summed
- * as it stands. */
+/* Energy of the stabilisation at point p at displacement d (dim numbers a node), J: z is small against eta,
+ * so its square is summed directly. */
 double galerkin_silling_energy (const galerkin *g, size_t p, const double *d)
 {
     const pg_rows *r = &g->sums;

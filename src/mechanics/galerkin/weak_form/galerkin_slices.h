@@ -13,27 +13,28 @@ enum { SLICES = 16 };
 typedef struct { size_t from, to; } interval;
 
 struct galerkin_slices {
-    size_t  first[SLICES + 1];                         /* points of a slice */
-    size_t  low[SLICES], high[SLICES];                 /* range of the nodes they see */
-    interval *seen[SLICES]; size_t nseen[SLICES];      /* these nodes themselves, without wide gaps */
-    double *sum[SLICES];                               /* per node of the range, 4 numbers or dim */
+    size_t  first[SLICES + 1];                         /* slice k: points first[k] .. first[k + 1] - 1 */
+    size_t  low[SLICES], high[SLICES];                 /* range of the nodes in their families */
+    interval *seen[SLICES]; size_t nseen[SLICES];      /* intervals of these nodes, without wide gaps */
+    double *sum[SLICES];                         /* sums of forces: per node of the range, 4 numbers or dim */
     double *x;                                         /* nodal values, 4 numbers a node or dim */
-    /* Points that are alike in each slice; what they add up to, and nodal values, an array for each
-     * component. has_runs: not in one dimension, and not where the plain way is wanted. */
+    /* Runs of points with the same shape functions in each slice; sums of their forces, and nodal values, an
+     * array for each component. has_runs: 0 in 1D and in runs without shortcuts. */
     int     has_runs;
     galerkin_run_list runs[SLICES];
     double *part[SLICES][3], *component[3];
-    int     quiet[SLICES];                             /* of the sum at hand: no block is active */
-    /* Bonds of points that were alike, summed over the products so far. */
+    int     quiet[SLICES];                             /* 1: no block of the slice is active in this sum */
+    /* Number of bonds of points summed in runs, over the products so far. */
     double  alike;
 };
 
-/* Nodal values as loops over points take them: four numbers a node in space, in x of the slices. */
+/* Nodal values in the layout that loops over points use: four numbers a node in 3D, in `x` of the slices,
+ * else dim. */
 const double *galerkin_widened (galerkin *g, const double *d);
-/* Nodal values in an array for each component, where there are runs. */
+/* Copies nodal values into `component`, an array for each component, where there are runs. */
 void galerkin_split (galerkin *g, const double *x);
 
-/* u (optional) and strain of a point in 3D, x having 4 numbers a node */
+/* u (m; NULL: not wanted) and strain e of point p in 3D; x: displacements, 4 numbers a node. */
 INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u, double *e)
 {
     four h0 = { 0 }, h1 = { 0 }, h2 = { 0 }, s = { 0 };
@@ -50,7 +51,8 @@ INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u
     for (int c = 0; u && c < 3; c++) u[c] = s[c];
 }
 
-/* u (optional) and strain of a point in 1D or 2D; x: dim numbers a node; e: (xx) or (xx, yy, 2 xy) */
+/* u (m; NULL: not wanted) and strain e of point p in 1D or 2D, (xx) or (xx, yy, 2 xy); x: dim numbers a
+ * node. */
 INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, double *u, double *e)
 {
     size_t offset = pg_rows_offset (r, p);

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The worst bonds where a bond breaks by its elongation alone. Of every block of points the largest
- * elongation of a live bond comes first, for which nothing is kept of a single bond. Only in blocks that
- * reach the largest one, or the limit that is asked for, bonds are then judged, by the same numbers as all of
- * them would be: the elongation of a bond has the bits that its utilisation is made of. */
+ * The bonds with the largest utilisation where a bond breaks by its elongation alone. First the largest
+ * elongation of an intact bond in every block of points is found, without storing values of single bonds.
+ * Then only in blocks that reach the overall largest one, or the limit wanted, bonds are judged, with the
+ * same bits as if all were judged: elongation is computed here as the criterion does. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
 
 enum { BATCH = GALERKIN_BATCH, PLACE = 8 };
-/* Blocks without a bond that lives. A hair for the rounding of a limit. */
+/* NONE: elongation of blocks without intact bonds. hair: tolerance for rounding of a limit. */
 static const double NONE = -INFINITY, hair = 1e-12;
 
-/* A look at a set. node: place and displacement of every node, x y z 0 u v w 0, m; square: of
+/* A search in one set. node: position and displacement of every node, x y z 0 u v w 0, m; square: that of
  * pg_criterion_type.elongation. */
 typedef struct {
     galerkin *g;
@@ -21,7 +21,7 @@ typedef struct {
     const double *node;
 } looking;
 
-/* Place and displacement of a point, behind each other. */
+/* Writes position and displacement of a point to `to`, as in looking.node. */
 static void put (size_t dim, const double *x, const double *u, double *to)
 {
     for (size_t k = 0; k < dim; k++) to[k] = x[k], to[4 + k] = u[k];
@@ -38,7 +38,7 @@ static void put_nodes (void *context, size_t first, size_t last, int thread)
 }
 
 #define INLINE static inline __attribute__ ((always_inline))
-/* Elongation of a bond, in the order of sums of src/mechanics/criterion/stretch.c. */
+/* Elongation of a bond (1), with sums in the order of src/mechanics/criterion/stretch.c. */
 INLINE double elongation (const double *from, const double *to, double square)
 {
     four xi = *(const four *) to - *(const four *) from,
@@ -49,7 +49,7 @@ INLINE double elongation (const double *from, const double *to, double square)
     return e + (ee[0] + ee[1] + ee[2]) / length;
 }
 
-/* The largest elongation of the live bonds of each block. */
+/* Computes the largest elongation of the intact bonds of each block. */
 PG_WIDE static void measure (const looking *w, size_t first, size_t last)
 {
     const galerkin *g = w->g;
@@ -80,8 +80,8 @@ static void measure_blocks (void *context, size_t first, size_t last, int thread
     measure (context, first, last);
 }
 
-/* Displacements of all points, and the longest bond of every block; returns the elongation of the longest of
- * all. */
+/* Measures displacements of all points and finds the largest elongation in every block; *most: that of all on
+ * this rank. */
 static pg_status find_longest (galerkin *g, const pg_state *state, const double *d, double square,
                                double *most)
 {
@@ -135,7 +135,7 @@ done:
     return status;
 }
 
-/* All bonds that this rank owns with the elongation asked for, ascending. */
+/* Judges all bonds owned by this rank whose elongation is at least s->least, in ascending order. */
 static pg_status search_all (search *s)
 {
     pg_status status = PG_OK;

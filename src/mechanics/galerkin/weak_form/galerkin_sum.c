@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The two loops over evaluation points that everything costs: displacement and strain from nodal values, and
- * nodal forces from stress, f_J = sum_p w_p B_pJ' sigma_p. Together they are K x without a matrix: 24 bytes a
- * bond instead of 9 numbers a node pair. Forces are summed in a fixed number of slices of the points, each
- * over its own range of nodes, and the slices in their order: the answer does not depend on the number of
- * threads. Points that are like others, most of those of a lattice, are summed many at a time
- * (galerkin_runs.c), unless the scene wants the plain way. */
+ * The two loops over evaluation points that take most of the time: displacement and strain from nodal
+ * values, and nodal forces from stress, f_J = sum_p w_p B_pJ' sigma_p. Together they are K x without a
+ * matrix: 24 bytes a bond instead of 9 numbers a node pair. Forces are summed in a fixed number of slices of
+ * the points, each over its own range of nodes, and the slices in their order: the result does not depend on
+ * the number of threads. Points with the same shape functions, most of those of a lattice, are summed many
+ * at a time (galerkin_runs.c), except in runs without shortcuts (pg_problem.plain). */
 #include "galerkin_slices.h"
 #include <stdio.h>
 #include <string.h>
 
-/* Numbers of a node in sums and widened values: four are one vector load. */
+/* Doubles per node in sums and widened values: four are one vector load. */
 static size_t stride_of (const galerkin *g) { return g->dim == 3 || g->kept ? 4 : (size_t) g->dim; }
 
-/* Nodes that no point of a slice sees are passed by where so many follow each other. */
+/* Nodes outside the families of a slice are skipped where at least so many are consecutive. */
 enum { GAP = 16 };
 
-/* A slice of a flat or a slender body sees parts of many layers of nodes, and not what lies between them.
- * mark: zeros before and after (n). */
+/* Finds the intervals of nodes in the families of slice k: in flat or slender bodies parts of many layers of
+ * nodes, with gaps between. mark: zeros before and after (n). */
 static pg_status find_seen (const galerkin *g, galerkin_slices *s, size_t k, unsigned char *mark)
 {
     pg_status status = PG_OK;
@@ -37,8 +37,8 @@ done:
     return status;
 }
 
-/* Sixteen slices of the points whatever the number of threads, each with room for the nodes that its
- * points see. Points are numbered along the lattice, so that these ranges overlap little. */
+/* Creates sixteen slices of the points whatever the number of threads, each with room for the nodes in its
+ * families. Points are numbered along the lattice, so that these ranges overlap little. */
 pg_status galerkin_slices_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -72,7 +72,8 @@ done:
     return status;
 }
 
-/* Slices with changed rows look for their runs anew when they are next asked for a product. */
+/* Marks the slices of these points as stale (list NULL: all): they search their runs anew in the next
+ * product. */
 void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list)
 {
     galerkin_slices *s = g->slices;
@@ -131,7 +132,7 @@ INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, do
 }
 
 /* ---- nodal values ------------------------------------------------------------------------------------ */
-/* Nodal values with four numbers a node. */
+/* Copies nodal values to slices->x with four numbers a node. */
 static const double *four_a_node (galerkin *g, const double *d)
 {
     double *x = g->slices->x;
@@ -141,10 +142,10 @@ static const double *four_a_node (galerkin *g, const double *d)
     return x;
 }
 
-/* Nodal values as the loops over points take them. */
+/* Nodal values in the layout that loops over points use: four numbers a node in 3D, else dim. */
 const double *galerkin_widened (galerkin *g, const double *d) { return g->dim == 3 ? four_a_node (g, d) : d; }
 
-/* Nodal values in an array for each component. */
+/* Copies nodal values into an array for each component. */
 void galerkin_split (galerkin *g, const double *x)
 {
     size_t dim = (size_t) g->dim;
@@ -153,17 +154,17 @@ void galerkin_split (galerkin *g, const double *x)
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
-/* x: nodal values whose stresses are summed; NULL: stresses of the last measure. at: the nodal values, four
- * numbers a node, where there is a stabilisation. */
+/* A sum of forces. x: nodal values whose stresses are summed; NULL: stresses of the last measure. at: the
+ * nodal values, four numbers a node, if there is a stabilisation. */
 typedef struct {
     galerkin *g;
     const double *x, *at;
     double   *f;
-    const unsigned char *active;                       /* blocks of points that x is not zero at; NULL: all */
+    const unsigned char *active;                       /* blocks of points where x is not zero; NULL: all */
     int       single;                                  /* 1: without runs */
 } summing;
 
-/* s = D e in space; a loop of constant length. */
+/* s = D e in 3D; loops of constant length. */
 INLINE void tangent (const double *D, const double *e, double *s)
 {
     for (int v = 0; v < 6; v++) {
@@ -172,7 +173,7 @@ INLINE void tangent (const double *D, const double *e, double *s)
     }
 }
 
-/* Forces of some points in space: by the stresses at hand, or (x given) by those of displacement x. */
+/* Adds forces of some points in 3D: by the measured stresses, or (x given) by those of displacement x. */
 PG_WIDE static void sum_solid (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
@@ -189,7 +190,8 @@ PG_WIDE static void sum_solid (const summing *m, size_t first, size_t last, doub
     }
 }
 
-/* Forces of points in 1D and 2D (a constant dim) by stresses at hand or (x given) those of displacement x. */
+/* Adds forces of points in 1D or 2D (dim is a constant) by measured stresses or (x given) those of
+ * displacement x. */
 INLINE void sum_flat (int dim, const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
@@ -220,7 +222,7 @@ static void sum_line (const summing *m, size_t first, size_t last, double *sum, 
     sum_flat (1, m, first, last, sum, low);
 }
 
-/* Some points one by one. */
+/* Adds forces of points first .. last - 1 of slice k in active blocks, one by one. */
 static void sum_points (const summing *m, size_t k, size_t first, size_t last)
 {
     const galerkin *g = m->g;
@@ -251,8 +253,8 @@ static int is_quiet (const summing *m, size_t k)
     return m->active && (end == block || !memchr (m->active + block, 1, end - block));
 }
 
-/* The sums of a slice are zero at the nodes that its points see; runs: those of runs as well, whose lanes
- * beyond their end add zeros to whatever stands elsewhere. */
+/* Sets the sums of a slice to zero at the nodes of its families; runs: those of runs as well (lanes beyond
+ * the end of a run add zeros to values elsewhere). */
 static void begin_sum (galerkin *g, size_t k, int runs)
 {
     galerkin_slices *s = g->slices;
@@ -264,7 +266,7 @@ static void begin_sum (galerkin *g, size_t k, int runs)
     }
 }
 
-/* Whole slices, each by one thread: runs, and the points between them. */
+/* Sums up whole slices, each by one thread: runs, and the points between them. */
 static void sum_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
@@ -287,7 +289,7 @@ static void sum_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* f += the sums of a slice for the nodes from .. to - 1, in space; runs: it has runs as well. */
+/* f += the sums of slice k for the nodes from .. to - 1 in 3D; runs: 1: it has sums of runs as well. */
 static void add_solid (const galerkin_slices *s, size_t k, int runs, size_t from, size_t to,
                        double *restrict f)
 {
@@ -302,7 +304,7 @@ static void add_solid (const galerkin_slices *s, size_t k, int runs, size_t from
         f[3 * i] += x[i - low], f[3 * i + 1] += y[i - low], f[3 * i + 2] += z[i - low];
 }
 
-/* What a slice has for the nodes from .. to - 1. */
+/* f += the sums of slice k for the nodes from .. to - 1. */
 static void add_slice (const summing *m, size_t k, size_t from, size_t to)
 {
     const galerkin_slices *s = m->g->slices;
@@ -315,7 +317,7 @@ static void add_slice (const summing *m, size_t k, size_t from, size_t to)
         for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->part[k][c][i - low];
 }
 
-/* A range of nodes: what all slices have for them, slices in their order. */
+/* Adds the sums of all slices for a range of nodes, slices in their order. */
 static void add_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
@@ -328,7 +330,8 @@ static void add_slices (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* x NULL: stresses as measured, at displacement d. active: blocks of points; NULL: all. */
+/* f += forces of all points by stresses of x, or (NULL) as measured, at displacement d. active: blocks of
+ * points; NULL: all. */
 static void sum_all (galerkin *g, const double *x, const double *d, double *f, const unsigned char *active)
 {
     summing m = { g, x, NULL, f, active, 0 };
@@ -340,8 +343,8 @@ static void sum_all (galerkin *g, const double *x, const double *d, double *f, c
     for (size_t k = 0; x && k < SLICES; k++) g->slices->alike += (double) g->slices->runs[k].bonds;
 }
 
-/* By stored rates: what a bond takes longer alone than as one of eight, s. No counts in the words: they would
- * begin anew with a run that is resumed. */
+/* Reports shortcut number k (pg_force_type.spared); seconds by stored rates: the time a bond takes alone less
+ * that as one of eight. The texts hold no counts, which would begin anew in a resumed run. */
 int galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds)
 {
     const galerkin *g = self;
@@ -367,7 +370,7 @@ void galerkin_sum_tangent (galerkin *g, const double *x, double *f)
     sum_all (g, x, x, f, galerkin_active (g, g->bulk, x, NULL));
 }
 
-/* Point by point: in runs others would be summed with them. */
+/* Adds forces of the listed points one by one: a run would include others. */
 void galerkin_sum_list (galerkin *g, size_t count, const size_t *list, const double *x, double *f)
 {
     galerkin_slices *s = g->slices;

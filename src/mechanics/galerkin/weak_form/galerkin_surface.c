@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a uniform stress does on the points of PG_FACETS: P = sum w N sigma n; a pressure in cracks. */
+ * Nodal forces of a uniform stress on the facet points (PG_FACETS), P = sum w N sigma n, and of a pressure
+ * in cracks. */
 #include "galerkin.h"
 #include <string.h>
 
-/* Components that a support on points bears are left out (pg_patch_probe). */
+/* P += nodal forces of a uniform stress on the surface, N. Components carried by a support on points are
+ * omitted (pg_patch_probe). */
 pg_status galerkin_surface (void *self, const double *stress, double *P)
 {
     galerkin *g = self;
@@ -23,14 +25,15 @@ pg_status galerkin_surface (void *self, const double *stress, double *P)
     return PG_OK;
 }
 
-/* A pressure p on all faces of cracks does the work p V, V being the volume that they enclose. With the
- * outward normal n of the body, which points into the crack on its faces, the divergence theorem gives
- *
- *   V = - int_faces u.n dA = int_surface u.n dA - int_body div u dV,
- *
+/* P += nodal forces of a uniform pressure, `factor` Pa, on all faces of cracks. It does the work p V, V being
+ * the volume enclosed by the faces. With the outward normal n of the body, which on faces points into the
+ * crack, the divergence theorem gives
+ * 
+ *     V = - int_faces u.n dA = int_surface u.n dA - int_body div u dV,
+ * 
  * so that the nodal forces follow from the surface without the cracks and from the body, whatever cracks
- * there are: a shape function that ends at a face has its jump there. New faces are loaded as they come into
- * being, and without a crack the sum is zero as far as the quadrature is consistent. */
+ * there are: a shape function that ends at a face jumps there. New faces are loaded as they form, and without
+ * a crack the sum is zero as far as the quadrature is consistent. */
 void galerkin_crack_pressure (galerkin *g, double factor, double *P)
 {
     const pg_rows *r = &g->sums;

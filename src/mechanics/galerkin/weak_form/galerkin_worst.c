@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The worst bonds, found without judging all of them: what a bond uses of its limits is bounded by what its
- * two ends would use alone, and that again by principal stresses that are bounded without an angle
- * (pg_principal_bounds). What these bounds leave is judged, by the same numbers as all bonds would be. */
+ * The bonds with the largest utilisation, found without judging all: the utilisation of a bond is bounded by
+ * those that its two ends would have alone, and these by bounds of the principal stresses that need no angle
+ * (pg_principal_bounds). Only bonds that these bounds do not exclude are judged, with the same bits as if
+ * all were judged. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -10,12 +11,12 @@ enum { BATCH = GALERKIN_BATCH };
 static const double NEVER = -1e300;
 
 /* ---- bounds of points ---------------------------------------------------------------------------------- */
-/* loose 1: utilisation of points by bounds of s1 and s3, where all criteria grow with s1 and -s3; 0: by s1
- * and s3 themselves. */
+/* Computation of bounds. loose: 1: s1 and s3 are bounds of the principal stresses, where all criteria grow
+ * with s1 and -s3; 0: they are exact. */
 typedef struct { galerkin *g; int set, loose; const struct envelope *all; } bounding;
 
-/* Of many criteria that are planes in (s1, s3): the least and the largest coefficients of each of the n
- * planes; n = 0: there are few criteria, or some are no planes. */
+/* For many criteria that are linear forms (planes) in (s1, s3): the least and the largest coefficients of
+ * each of the n planes; n = 0: there are few criteria, or some are no planes. */
 typedef struct envelope { int n; double low[2][2], high[2][2]; } envelope;
 
 enum { FEW = 8 };
@@ -38,7 +39,7 @@ static envelope envelope_of (const pg_problem *p)
     return all;
 }
 
-/* What any of the criteria would use at most under these stresses. */
+/* Upper bound of the utilisation by any of the criteria under these principal stresses (Pa). */
 static double at_most (const envelope *all, double s1, double s3)
 {
     double most = 0;
@@ -48,8 +49,8 @@ static double at_most (const envelope *all, double s1, double s3)
     return most;
 }
 
-/* What each point would use of the limits if both ends of a bond were like it. The weakest law decides, as in
- * a bond; points whose bonds never break are marked by -1e300. */
+/* alone[p]: the utilisation if both ends of a bond had the stress of point p, by the criterion with the
+ * largest one; -1e300 for points whose bonds never break. */
 static void judge_alone (const bounding *c, size_t first, size_t last)
 {
     const galerkin *g = c->g;
@@ -71,7 +72,7 @@ static void judge_alone (const bounding *c, size_t first, size_t last)
     }
 }
 
-/* Blocks of points that have been measured since. */
+/* Computes the bounds of blocks of points that have been measured since the last time. */
 static void bound_blocks (void *context, size_t first, size_t last, int thread)
 {
     const bounding *c = context;
@@ -92,7 +93,7 @@ static void bound_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Do all laws use more where the largest stress is larger or the smallest one smaller? */
+/* Does the utilisation of all criteria grow with the largest and with minus the smallest principal stress? */
 static int all_grow (const galerkin *g)
 {
     int grow = 1;
@@ -106,7 +107,7 @@ static int all_grow (const galerkin *g)
     return grow;
 }
 
-/* All points of all sets, by the stress at displacement d. */
+/* Computes the bounds of all points of all sets by the stress at displacement d. */
 static pg_status find_bounds (galerkin *g, const double *d)
 {
     galerkin_bounds *b = &g->bounds;
@@ -134,15 +135,15 @@ double galerkin_largest (const galerkin *g, double mine)
 }
 
 /* A search among bonds. Utilisation by stress is the largest of some linear functions of the mean (s1, s3) of
- * both ends, so that a bond uses at most the mean of what its ends would use alone: only bonds are judged for
- * which this bound is above `least`. */
+ * both ends, so that it is at most the mean of what the ends would have alone: only bonds are judged for
+ * which this bound reaches `least`. */
 typedef struct {
-    galerkin_batch batch;                              /* its list takes bonds from `least` on */
+    galerkin_batch batch;                              /* its list collects bonds with at least `least` */
     double  top_node;                                  /* the largest bound of a node */
     double  least;
 } search;
 
-/* The principal stresses of a point themselves, where only bounds are known. */
+/* Computes the exact principal stresses of a point where only bounds are known. */
 static void make_exact (galerkin *g, int set, size_t p)
 {
     if (g->bounds.exact[set][p]) return;
@@ -168,7 +169,7 @@ done:
     return status;
 }
 
-/* Judges the bonds collected. Without a list the largest utilisation so far is what others have to reach. */
+/* Judges the collected bonds. Without a list `least` is raised to the largest utilisation so far. */
 static pg_status judge_collected (search *s)
 {
     pg_status status = PG_OK;
@@ -186,13 +187,13 @@ done:
     return status;
 }
 
-/* Could this point, or this bond of it, reach `least`? A hair is left for rounding. */
+/* Can a bond with the bounds `one` and `other` at its ends reach `least`, with a tolerance for rounding? */
 static int may (const search *s, double one, double other)
 {
     return 0.5 * (one + other) >= s->least * (1 - 1e-12);
 }
 
-/* Live bonds of a point that may reach `least`, in batches. */
+/* Judges the intact bonds of a point that may reach `least`, in batches. */
 static pg_status search_point (search *s, size_t p)
 {
     pg_status status = PG_OK;
@@ -213,7 +214,7 @@ done:
     return status;
 }
 
-/* All bonds of all sets that may reach `least`, ascending. */
+/* Judges all owned bonds of all sets that may reach `least`, in ascending order. */
 static pg_status search_all (search *s)
 {
     pg_status status = PG_OK;
@@ -229,7 +230,8 @@ done:
     return status;
 }
 
-/* What the largest utilisation is at least: that of the bonds of the point that alone would use most. */
+/* Finds a lower bound of the largest utilisation: that of the bonds of the point with the largest `alone` in
+ * each set. */
 static pg_status search_first (search *s)
 {
     pg_status status = PG_OK;
@@ -248,9 +250,9 @@ done:
     return status;
 }
 
-/* The largest utilisation of a live bond, and if it is above 1, all bonds from `from` on, ascending, with
- * utilisation and kind at their places of the two arrays (the other places have no meaning). The same numbers
- * as galerkin_utilisation, of the few bonds that matter. */
+/* *top: the largest utilisation of an intact bond. If it is above 1, `over` lists all bonds from `from` on,
+ * ascending, with utilisation and kind at their positions in the two arrays (others are undefined). Same
+ * numbers as galerkin_utilisation, for the few bonds that matter. */
 pg_status galerkin_worst (galerkin *g, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over)
 {
