@@ -125,8 +125,8 @@ static int left_over (pg_neighbourhood *s, int order, double h)
     return s->projected ? PG_GRADE_PROJECTED : PG_GRADE_SHEPARD;
 }
 
-/* Tries the basis that was asked for, then the next lower one. Rounding in the quadratic
- * moments is larger, so its pivots may be smaller before they count as zero. */
+/* Tries the basis of the given order, then the next lower one. Rounding in the quadratic moments is larger,
+ * so its pivots may be smaller before they count as zero. */
 int pg_neighbourhood_grade (pg_neighbourhood *s, int order, double h)
 {
     int look = s->lost || !s->extrapolates;

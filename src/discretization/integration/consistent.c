@@ -194,8 +194,8 @@ static int thin (const space *s)
     return 0;
 }
 
-/* Chooses as many polynomials as the points first .. last - 1 can tell apart: with products, linear,
- * constant; n = 0: not even the constant. */
+/* Chooses as many polynomials as the points first .. last - 1 can determine: with products, linear, constant;
+ * n = 0: not even the constant. */
 static void find_space (space *s, const pg_rows *points, size_t first, size_t last)
 {
     size_t dim = (size_t) points->dim, n = last - first;
@@ -223,8 +223,8 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
     for (int k = 0; k < s->n * s->n; k++) s->L[k] *= sqrt (volume);
 }
 
-/* Copies the values of n nodes (stride numbers each) from one ascending list of nodes into the places that
- * these nodes have in a wider one. */
+/* Copies the values of n nodes (stride numbers each) from an ascending list of nodes to the positions of
+ * these nodes in a wider list. */
 static void spread (size_t n, const int *node, size_t stride, const double *value, const int *wide_node,
                     double *wide)
 {

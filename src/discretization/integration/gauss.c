@@ -16,7 +16,7 @@ void pg_quadrature_clear (pg_quadrature *q)
 /* The cells, or the facets, to be integrated over, in a common form. */
 typedef struct {
     const pg_cells *cells;
-    /* facets: 1 if these are facets. order: Gauss points per direction. */
+    /* facets: 1: facets are integrated, 0: cells. order: Gauss points per direction. */
     int    dim, facets, order;
     /* The first of the cells or facets, and the one behind the last. */
     size_t from, to;

@@ -71,8 +71,7 @@ void      boundary_impose (const point_boundary *s, double t, double *d);
 pg_status boundary_work_balance (point_boundary *s, double t, const double *d, const double *residual,
                               pg_work_balance *out);
 
-/* ---- between these files
- * --------------------------------------------------------------------------------- */
+/* ---- shared by the boundary_*.c files -------------------------------------------------------------- */
 pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle);
 pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load);
 /* Prescribed values of all supports at t, m (nsupport). */

@@ -88,7 +88,7 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         memcpy (value, d, g->n * dim * sizeof *value);
         return PG_OK;
     }
-    /* asked before the first step: nothing has been evaluated yet */
+    /* called before the first step: nothing has been evaluated yet */
     if (!g->rows[PG_NODES].N) PG_TRY (galerkin_refresh (self, state, NULL));
     if (strcmp (name, "error_estimate") == 0) {
         pg_estimate sums;

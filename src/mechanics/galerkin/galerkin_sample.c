@@ -395,7 +395,7 @@ done:
     return status;
 }
 
-/* ---- places that are alike ----------------------------------------------------------------------------- */
+/* ---- positions with equal surroundings ----------------------------------------------------------------- */
 /* Sampling by kept shape functions: which (n): key of each position, value: scratch of each thread. */
 typedef struct { const sampling *s; const double *x; const int *which; double *value; } by_rows;
 

@@ -32,7 +32,7 @@ typedef struct {
     size_t *near[2];                                  /* nodes (0) and evaluation points (1) around the box */
     surroundings around;
     pg_rows rows;
-    size_t *at;                                        /* nearest evaluation point of each place (n) */
+    size_t *at;                                        /* nearest evaluation point of each position (n) */
     long    used;                                      /* clock of its last use */
 } batch;
 

@@ -1,22 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
- * blocks, energy), galerkin_gradients.c (rows of K),
- * galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_place.c (where these act), galerkin_basis.c
- * (elimination),
- * galerkin_sum.c (forces of all points), galerkin_measure.c (their strains),
- * galerkin_runs.c (points that are alike), galerkin_silling.c (stabilisation), galerkin_operator.c (K x, K),
- * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
- * galerkin_stretch.c (those by their elongation), galerkin_groups.c (bonds outside of a group),
- * galerkin_sight.c (which points see which nodes),
- * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
- * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums),
- * galerkin_ended.c, galerkin_ended_plan.c (cells that end at cracks), galerkin_change.c
- * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
- * (preconditioner), galerkin_hats.c (the same on a coarse grid),
- * galerkin_rows.c (rows of shape functions), galerkin_sample.c (any place),
- * galerkin_sample_alike.c (places that are alike),
- * galerkin_sample_again.c (places that are asked for again),
- * galerkin_estimate.c (error of the stress). */
+ * Private: the Galerkin force. Files: galerkin.c (create, refresh, balance), galerkin_bulk.c (stress,
+ * blocks, energy), galerkin_gradients.c (rows of K), galerkin_nitsche.c (Nitsche, penalty, loads),
+ * galerkin_place.c (effective positions of points for these), galerkin_basis.c (elimination), galerkin_sum.c
+ * (forces of all points), galerkin_measure.c (strains of all points), galerkin_runs.c (points with equal
+ * shape functions), galerkin_silling.c (stabilisation), galerkin_operator.c (K x, K), galerkin_bonds.c
+ * (utilisation, overlap, census), galerkin_worst.c (the bonds with the largest utilisation),
+ * galerkin_stretch.c (the same by elongation), galerkin_groups.c (bonds outside of a group),
+ * galerkin_sight.c (which points have which nodes in their families), galerkin_dilatation.c,
+ * galerkin_dilatation_facet.c (near Poisson's ratio 1/2), galerkin_consistent.c (rows with corrected
+ * derivatives), galerkin_ended.c, galerkin_ended_plan.c (cells that end at cracks), galerkin_change.c
+ * (change of K by breaking), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
+ * (preconditioner), galerkin_hats.c (preconditioner on a coarse grid), galerkin_rows.c (shape functions),
+ * galerkin_sample.c (fields at arbitrary positions), galerkin_sample_alike.c (positions with equal
+ * surroundings), galerkin_sample_again.c (positions sampled repeatedly), galerkin_estimate.c (error of the
+ * stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
@@ -88,7 +85,7 @@ typedef struct {
 
 /* K and M. */
 typedef struct {
-    pg_assembly *K;                                   /* NULL until someone asks for the matrix */
+    pg_assembly *K;                                   /* the matrix; NULL until needed */
     int      took;                                   /* 1: the bulk's part was taken from pg_problem.intact */
     pg_assembly *M;                                   /* consistent mass matrix, NULL until needed */
     int      all_stale;  /* rows of K to be reassembled: all, or the marked ones */
@@ -147,7 +144,7 @@ typedef struct {
     /* galerkin_silling.c: sums of each point, positions (m); NULL: no stabilisation */
     double  *kept, *place;
     galerkin_dilatation *dilatation;                   /* NULL: dilatation is not projected */
-    galerkin_change *change;                           /* NULL until someone asks for it */
+    galerkin_change *change;                           /* NULL until galerkin_change_of is called */
     double  *work;                                     /* ndof */
     int     *ends;  /* number of bonds that end at each node (n), for damage; NULL until needed */
     size_t  *list[PG_BOND_SETS];                       /* points that lost bonds (scratch of refresh) */
@@ -302,7 +299,7 @@ pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved);
 size_t galerkin_unended (const galerkin *g);           /* pg_census.unended */
 size_t galerkin_ended_near (const galerkin *g, size_t *cell); /* cells near cracks (NULL: their number) */
 const pg_rows *galerkin_ended_faces (const galerkin *g);  /* values and grades at the faces of cells */
-void galerkin_ended_mark (galerkin *g);                       /* sets g->whole of these cells */
+void galerkin_ended_mark (galerkin *g);                       /* sets g->whole of cells near cracks */
 /* Sets the weights of the listed cells' points, and the derivatives of cells treated in parts, after
  * pg_consistency_apply. */
 pg_status galerkin_ended_apply (galerkin *g, size_t count, const size_t *list);

@@ -171,7 +171,7 @@ pg_status galerkin_change_patch (galerkin *g, size_t patch, int supported, doubl
 /* Records that the elimination T has changed. */
 void galerkin_change_basis (galerkin *g) { if (g->change) g->change->basis = 1; }
 
-/* ---- to be asked for ----------------------------------------------------------------------------------- */
+/* ---- handing out the change ---------------------------------------------------------------------------- */
 /* Hands out the change of K since the last call (pg_force_type.change). The first call begins the record. */
 pg_status galerkin_change_of (void *self, pg_stiffness_change *out)
 {

@@ -251,7 +251,7 @@ done:
     return status;
 }
 
-/* Computes the present values of these cells. */
+/* Recomputes the shape functions in g->sums of the listed cells. */
 static pg_status renew (galerkin *g, size_t n, const size_t *cell)
 {
     pg_status status = PG_OK;

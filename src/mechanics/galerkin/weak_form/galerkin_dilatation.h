@@ -29,7 +29,7 @@ struct galerkin_dilatation {
     /* Of every facet point: the evaluation point whose patch is continued to it; -1: none. */
     long           *home;
     size_t         *facet_start, *facet;               /* supported facet points of every patch, and */
-    size_t         *facet_entry;                       /* the entries of the patch that these belong to */
+    size_t         *facet_entry;                       /* the patch entry of each of them */
     pg_family       family;                            /* nodes of every patch and of its facet points */
 };
 

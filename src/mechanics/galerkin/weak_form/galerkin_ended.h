@@ -44,7 +44,7 @@ struct galerkin_ended {
     double *eye, *flux;
     int   (*part)[2];
     unsigned char *crack;
-    unsigned char *sight;           /* intact bonds of these points */
+    unsigned char *sight;           /* 1: intact bonds of the points in `extra` */
     /* Sides of cells that are whole sides of parts: the face, and the part (position in `near`, number). */
     struct { size_t face; int part[2]; } *side;  size_t nside;
     /* The points and sides of part p of cell k of `near`: a chain from first[PG_PARTS k + p], numbers + 1;

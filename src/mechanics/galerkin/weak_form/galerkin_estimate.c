@@ -63,9 +63,9 @@ static double weight_of (const recovery *r, size_t p, size_t e)
 }
 
 /* ---- polynomials --------------------------------------------------------------------------------------- */
-/* Solves the normal equations of one node for all stress components: the polynomial of the highest order,
- * up to the one wanted, that the points of its patch determine (the factor exists). 0: not even a
- * constant. */
+/* Solves the normal equations of one node for all stress components: the polynomial of the highest order, up
+ * to r->order, that the points of its patch determine (the factor exists). Returns 0 if not even a constant
+ * is determined. */
 static int solve (const recovery *r, double *fit)
 {
     int nv = r->g->nv, dim = r->g->dim;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loads and essential conditions of the Galerkin form (theory E6): Nitsche on facet points,
- * R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k), beta = nitsche E /
- * h,
+ *   R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k),
+ *   beta = nitsche E / h;
  * penalty on nodes, tractions and pressures on facets, point and body forces. */
 #include "galerkin.h"
 #include <math.h>
@@ -294,10 +294,9 @@ void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, doubl
     }
 }
 
-/* ---- what each term adds
- * ------------------------------------------------------------------------------------------------ visit
- * (context, set, point, load, component, force, displacement): `force` acts on the body at that point of that
- * set. */
+/* ---- what each term adds ------------------------------------------------------------------------------- */
+/* visit (context, set, point, load, component, force, displacement): `force`, N, acts on the body at that
+ * point of that set along axis `component`; displacement, m, is conjugate to it. */
 typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force,
                          double displacement);
 

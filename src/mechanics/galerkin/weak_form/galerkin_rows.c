@@ -192,7 +192,7 @@ done:
     return status;
 }
 
-/* Evaluates rows of a set, each into its own place. */
+/* Evaluates rows of a set, each stored at its own position. */
 static pg_status evaluate_own (galerkin *g, const unsigned char *alive, int set, size_t count,
                                const size_t *list)
 {

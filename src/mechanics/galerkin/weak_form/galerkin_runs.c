@@ -27,7 +27,7 @@ enum { LANES = GALERKIN_LANES, LEAST = 3, MOST = 27 };
 static const double rounding = 1e-11;
 
 #define INLINE static inline __attribute__ ((always_inline))
-/* ---- which groups are alike ---------------------------------------------------------------------------- */
+/* ---- groups with equal rows ---------------------------------------------------------------------------- */
 /* The end of the group that begins with point p: the points of its cell, or p alone; 0: there are too many,
  * or the range first .. last - 1 does not contain them all. */
 static size_t group_end (const pg_rows *r, size_t first, size_t last, size_t p)

@@ -157,7 +157,7 @@ void galerkin_silling_sum (const galerkin *g, size_t first, size_t last, const d
     (g->dim == 3 ? sum_solid : g->dim == 2 ? sum_plane : sum_line) (g, first, last, stress, x, f, low);
 }
 
-/* ---- eight points that are alike ----------------------------------------------------------------------- */
+/* ---- eight points with equal rows ---------------------------------------------------------------------- */
 /* Values of eight points: entry (a, b) of a matrix has number 3 a + b; w: weights of the points, 0 beyond the
  * run. */
 typedef struct { eight H[9], T[9], own[3], w, c; } eight_points;

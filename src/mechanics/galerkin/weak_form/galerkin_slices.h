@@ -15,7 +15,8 @@ typedef struct { size_t from, to; } interval;
 struct galerkin_slices {
     size_t  first[SLICES + 1];                         /* slice k: points first[k] .. first[k + 1] - 1 */
     size_t  low[SLICES], high[SLICES];                 /* range of the nodes in their families */
-    interval *seen[SLICES]; size_t nseen[SLICES];      /* intervals of these nodes, without wide gaps */
+    /* intervals of the nodes in their families, without wide gaps */
+    interval *seen[SLICES]; size_t nseen[SLICES];
     double *sum[SLICES];                         /* sums of forces: per node of the range, 4 numbers or dim */
     double *x;                                         /* nodal values, 4 numbers a node or dim */
     /* Runs of points with the same shape functions in each slice; sums of their forces, and nodal values, an
