@@ -18,7 +18,7 @@ static const char names[] =
 #undef PG_APPROX
     ;
 
-/* A table of a few entries needs no index. */
+/* Linear search, as the table has a few entries only. */
 const pg_approx_type *pg_approx_find (const char *name)
 {
     for (size_t i = 0; name && i < sizeof table / sizeof *table; i++)

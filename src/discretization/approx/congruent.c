@@ -13,9 +13,9 @@ static const double ROUNDING = 6144;
 
 struct congruent_slot {
     uint64_t print;
-    /* Bonds in the row. */
+    /* Number of bonds in the row. */
     size_t   n;
-    /* 0: empty. */
+    /* 1: the slot holds a row; 0: it is empty. */
     int      used;
     unsigned char grade;
 };

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The arguments of one call. */
+/* The arguments of one call of pg_moment_evaluate. */
 typedef struct {
     const pg_formula *formula;
     const pg_approx *a;
@@ -310,7 +310,7 @@ static void row (const evaluation *g, size_t i, pg_neighbourhood *s, congruent *
     congruent_keep (known, slot, rows, i, g->cloud->volume);
 }
 
-/* The rows of one thread. */
+/* Evaluates rows first .. last - 1 of the list; run by each thread. */
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const evaluation *g = context;

@@ -41,7 +41,7 @@ done:
 
 pg_status pg_rows_eyes (double **eye, const pg_cloud *cloud, size_t n, const double *x, const double *normal)
 {
-    static const double inward = 1e-5;                 /* spacings */
+    static const double inward = 1e-5;                 /* distance into the body, spacings */
     pg_status status = PG_OK;
     size_t dim = (size_t) cloud->dim;
     *eye = NULL;

@@ -32,8 +32,8 @@ typedef struct {
     pg_sight sees;
     void *context;
     int threads;
-    /* What is left to do: number of positions, which they are (n), where in `node` the neighbours in the best
-     * support so far begin, and how many they are. */
+    /* Positions that are to be improved: their number n, their row numbers (place), and of the neighbours in
+     * the best support so far where they begin in `node` (at) and how many they are (count). */
     size_t n, *place, *at, *count;
     /* 1: most sampled positions that are surrounded by irregular points have too poor a basis: the horizon is
      * too small. */

@@ -123,7 +123,7 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     PG_TRY (pg_rows_place (&c->face, search, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL, eye,
                            threads));
     PG_TRY (pg_rows_widen (&c->face, approx, cloud, NULL, NULL, threads, &c->widened));
-    PG_ALLOC (c->face.N, c->face.family.start[c->face.n]);             /* values only */
+    PG_ALLOC (c->face.N, c->face.family.start[c->face.n]);             /* no derivatives at faces */
     PG_ALLOC (c->face.grade, c->face.n);
     PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
     PG_TRY (unite (c, points, cloud->n));
@@ -207,7 +207,7 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
     for (size_t q = first; q < last; q++)
         for (size_t k = 0; k < dim; k++)
             s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
-    if (!(s->size > 0)) s->size = 1;                   /* one point */
+    if (!(s->size > 0)) s->size = 1;                   /* the cell has a single point */
     /* Numbers of polynomials that are tried: with products, linear, constant, none. */
     const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };
     for (const int *size = sizes; (s->n = *size) > 0; size++) {
@@ -367,7 +367,7 @@ static void correct (const job *j, const space *s, size_t cell, size_t m, const 
     }
 }
 
-/* ---- what no derivatives can give ---------------------------------------------------------------------- */
+/* ---- residual that no derivatives can remove ----------------------------------------------------------- */
 /* Functions b that the projection uses: 1, z, and with a quadratic basis their products; N reproduces
  * them. */
 enum { REPRODUCED = 10 };

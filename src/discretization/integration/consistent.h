@@ -8,6 +8,6 @@
 /* Changes fluxes of boundary facets so that the quadrature of each cell obeys the divergence theorem for 1
  * and x: c->faces, c->amended, c->uneven. */
 pg_status consistent_close (pg_consistency *c, const pg_rows *points);
-/* Finds c->host, c->guests, c->needs and c->opens. */
+/* Finds c->hosts, c->guests, c->needs and c->opens. */
 pg_status consistent_hosts (pg_consistency *c);
 #endif

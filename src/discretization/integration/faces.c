@@ -8,7 +8,7 @@
 
 /* One face of one cell, before faces are paired. */
 typedef struct {
-    /* Its number, counted cell by cell and side by side. */
+    /* Number of the face, counted cell by cell and side by side. */
     size_t at;
     /* Cell (-1: a facet of the boundary), side in the numbering of Exodus, number of corners. */
     int    cell, side, corners;

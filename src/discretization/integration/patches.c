@@ -21,7 +21,7 @@ static const double apart = 0.875;
  * have fewer digits are refused. */
 static const double equal = 1e-6;
 
-/* The patches under construction. */
+/* The patches while they are made. */
 typedef struct {
     /* The input. */
     const pg_patch_source *s;
@@ -61,7 +61,7 @@ static double spacing_at (const builder *b, size_t p)
 }
 
 /* ---- units --------------------------------------------------------------------------------------------- */
-/* Centres, volumes and extent of the units. */
+/* Computes centres, volumes and extent of the units. */
 static pg_status measure_units (builder *b)
 {
     pg_status status = PG_OK;
@@ -175,7 +175,7 @@ static int earlier (const void *a, const void *b)
     return c->unit < d->unit ? -1 : 1;
 }
 
-/* The units in the order in which they may become roots. */
+/* Lists the units in the order in which they may become roots. */
 static void order_units (const builder *b, candidate *list)
 {
     const pg_family *f = b->s->family;

@@ -104,13 +104,13 @@ static void find_goals (const point_boundary *s, double t, int dof, double *out)
 
 void boundary_goals (const point_boundary *s, double t, double *out) { find_goals (s, t, 0, out); }
 
-/* NULL: all unknowns are free. */
+/* The matrix T that selects the free unknowns; NULL: all are free. */
 const pg_sparse *boundary_basis (const point_boundary *s) { return s->nsupport ? &s->T : NULL; }
 
 /* Sets d at prescribed unknowns; the others stay as they are. */
 void boundary_impose (const point_boundary *s, double t, double *d) { find_goals (s, t, 1, d); }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
+/* ---- creation and release ------------------------------------------------------------------------------ */
 /* Makes the supports first, then the loads that prescribe no displacement, then the springs. */
 pg_status boundary_create (point_boundary *s, const pg_problem *problem, int stride, double length,
                         const unsigned char *idle)

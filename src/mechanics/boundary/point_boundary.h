@@ -13,7 +13,7 @@ typedef struct { size_t dof, point; int load, component; } boundary_support;
 typedef struct {                             /* contribution of one quadrature point of a load to one point */
     size_t at;                                         /* index into the points of the load */
     double weight;                                     /* area, volume or 1 (m^2, m^3, 1) times the share */
-    double x[3], normal[3];                            /* m; 1 */
+    double x[3], normal[3];                            /* position, m; unit normal */
 } boundary_share;
 typedef struct {
     int     load, separates;                           /* separates: 1: a pattern times a factor of t */
@@ -22,9 +22,10 @@ typedef struct {
     boundary_share *part;                                  /* NULL once the pattern is known */
     int     first, components;                         /* unknowns of a point that the load acts on */
     double *pattern;  /* forces, N (npoint x components): of factor 1 if `separates`, else at `time` */
-    double  time;                                      /* s */
+    double  time;                                      /* time of `pattern`, s */
 } boundary_load;
-typedef struct { size_t dof, point; int load, component; double stiffness; } boundary_spring;     /* N/m */
+/* stiffness, N/m */
+typedef struct { size_t dof, point; int load, component; double stiffness; } boundary_spring;
 typedef struct {
     const pg_problem *problem;
     int        dim, stride;

@@ -169,8 +169,8 @@ done:
     return status;
 }
 
-/* 1: all that the touched points contribute to is their own share of K x. Not with consistent cells, patches
- * or stabilisation, nor where supports or loads use their shape functions. */
+/* 1: a break changes K x only by the own terms of the evaluation points that lose bonds. Not with consistent
+ * cells, patches or stabilisation, nor where supports or loads use their shape functions. */
 static int are_alone (const galerkin *g, const size_t *count)
 {
     int loaded = 0;

@@ -33,7 +33,7 @@ static const double soft_tetrahedron = 0.4;
  * node. */
 static const double beyond = 1.2;
 
-/* ---- their matrices ------------------------------------------------------------------------------------ */
+/* ---- matrices of elements ------------------------------------------------------------------------------ */
 /* K += w B' D B for gradients q (m x dim) of the m nodes, blocks on and above the diagonal. */
 static void add_strain (const galerkin *g, size_t m, const double *q, const double *D, double w, double *K)
 {
@@ -469,7 +469,7 @@ static pg_status width_of_supports (const pg_problem *p, double *width)
                  / pow (c->volume[i] / c->thickness, 1.0 / c->dim);
     pg_sort (all, c->n, sizeof *all, pg_ascending_numbers);
     *width = all[c->n / 4];
-    PG_TRY (pg_cloud_most (c, 1, width));   /* one polynomial for all ranks */
+    PG_TRY (pg_cloud_most (c, 1, width));   /* largest over all ranks, which use one polynomial */
 done:
     pg_free (all);
     return status;

@@ -18,8 +18,8 @@ typedef struct {
     int set;                                           /* bond set of the points with elements of their own */
     pg_adjacency list;
     size_t cap_start, cap_node, cap_of, cap_cell, cap_weight;
-    size_t *of;                                        /* evaluation point, cell, or facet point */
-    int    *cell;                                      /* kind of element, NO_CELL: of a point, SPRINGS */
+    size_t *of;                                     /* number of its evaluation point, cell, or facet point */
+    int    *cell;                                      /* kind of each element, or NO_CELL, SPRINGS */
     double *weight;                                 /* volume of a point, m^3; of a cell: share in the body */
     double  reach;
     int     classes;                      /* 1: boxes are two steps wide and join nodes of one parity class */

@@ -15,7 +15,7 @@ static const pg_element box_kind[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
 static const unsigned char box_corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
                                                 { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 
-/* ---- which nodes --------------------------------------------------------------------------------------- */
+/* ---- nodes of an element ------------------------------------------------------------------------------- */
 /* Entry of node j in the family of point p; SIZE_MAX: it is not there. */
 static size_t entry_of (const pg_rows *r, size_t p, int j)
 {

@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* ---- which functions belong together ------------------------------------------------------------------- */
+/* ---- groups of hat functions --------------------------------------------------------------------------- */
 /* Adds the hat functions at node j to the group. */
 static pg_status meet (sums *b, size_t j)
 {
@@ -288,7 +288,7 @@ static void add_spring (sums *b, const support *s)
     add_pairs (b, 1);
 }
 
-/* ---- all of it ----------------------------------------------------------------------------------------- */
+/* ---- summation over all points ------------------------------------------------------------------------- */
 /* Marks the unknowns that are determined elsewhere: slaves of elimination, and those of stiff penalties. */
 static pg_status find_fixed (sums *b)
 {

@@ -136,8 +136,8 @@ static int view_of_all (const sampling *s, const nearest_points *q, int j)
 /* Does a position interact with node j? Decided by the bonds of its nearest evaluation points q, then by
  * those of its nearest nodes i. A node at the rim of the support that is in none of these families counts,
  * unless both it and one of i (lost) have lost bonds. */
-static int sees (sampling *s, const nearest_points *q, const nearest_points *i, int lost /* one of i has */,
-                 int j)
+static int sees (sampling *s, const nearest_points *q, const nearest_points *i,
+                 int lost /* 1: one of the nodes i has lost bonds */, int j)
 {
     int answer = view_of_all (s, q, j);
     if (answer == ALIVE || answer == LOST) return answer == ALIVE;

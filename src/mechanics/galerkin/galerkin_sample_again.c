@@ -61,7 +61,7 @@ int galerkin_again_serves (const galerkin *g, size_t n)
     return !p->plain && g->dim == 2 && !p->cloud.size && n >= FEW;
 }
 
-/* ---- what is around ------------------------------------------------------------------------------------ */
+/* ---- surroundings of a batch --------------------------------------------------------------------------- */
 /* Does the box of the batch, enlarged by `more` (m) on every side, hold x? */
 static int within (const batch *b, const double *x, double more)
 {

@@ -150,7 +150,7 @@ static int large_enough (const box *b, box_size *size)
     return enough;
 }
 
-/* ---- what is kept of it -------------------------------------------------------------------------------- */
+/* ---- results of the measurement ------------------------------------------------------------------------ */
 /* Stores the blocks that exceed rounding, and for shape functions the row of the mass matrix of the middle
  * point, divided by its mass: int N_0 N_j dV / V. */
 static pg_status collect (pg_symbol *s, const box *b, const box_size *size)

@@ -59,7 +59,7 @@ static pg_status sample_zone (const pg_symbol *s, int grid, sample **out, size_t
         for (int a = 0; a < s->dim; a++, rest /= side) {
             x->at[a] = (int) (rest % side) + 1 - grid / 2;
             x->k[a] = pi * x->at[a] / (grid / 2) / s->step[a];
-            if (x->at[a] == 0 || x->at[a] == grid / 2) continue;           /* equal to its opposite */
+            if (x->at[a] == 0 || x->at[a] == grid / 2) continue;  /* 0 and the edge are their own opposites */
             itself = 0;
             if (!sign) sign = x->at[a];
         }
@@ -72,7 +72,7 @@ done:
     return status;
 }
 
-/* ---- what is found there ------------------------------------------------------------------------------- */
+/* ---- evaluation of the samples ------------------------------------------------------------------------- */
 /* Mode i of a sample as a pg_motion; alike: the number of modes of the same value. */
 static pg_motion motion_of (const sample *x, const pg_symbol_modes *modes, int i, double value, double scale)
 {

@@ -42,7 +42,7 @@ typedef struct galerkin_store galerkin_store;           /* galerkin_rows.c */
 
 /* Options of the method in the scene (pg_problem.options). */
 typedef struct {
-    double silling;                                    /* Gs; 0: no stabilisation */
+    double silling;                                    /* factor Gs of Silling's stabilisation; 0: none */
     double nitsche, penalty;                           /* factors of E / h, h the local spacing */
 } galerkin_options;
 /* Values of the last measure of a displacement field, for each bond set and point: strain and stress (Pa), nv
@@ -83,9 +83,9 @@ typedef struct {
     double **pattern;
 } galerkin_eigenstrain;
 
-/* K and M. */
+/* Stiffness matrix K and mass matrix M. */
 typedef struct {
-    pg_assembly *K;                                   /* the matrix; NULL until needed */
+    pg_assembly *K;                                   /* stiffness matrix; NULL until needed */
     int      took;                                   /* 1: the bulk's part was taken from pg_problem.intact */
     pg_assembly *M;                                   /* consistent mass matrix, NULL until needed */
     int      all_stale;  /* rows of K to be reassembled: all, or the marked ones */
@@ -99,9 +99,9 @@ typedef struct {
 
 /* Prescribed displacements. */
 typedef struct {
-    constraint *nitsche;  size_t nnitsche;                        /* Nitsche, ascending by point */
-    size_t  *nitsche_start;                                /* facet point -> its constraints */
-    /* penalty: point = index into penalty_node */
+    constraint *nitsche;  size_t nnitsche;      /* constraints by Nitsche's terms, ascending by facet point */
+    size_t  *nitsche_start;                                /* first constraint of each facet point */
+    /* Constraints by penalty and springs; their `point` is an index into penalty_node. */
     constraint *penalty;  size_t npenalty;
     /* constraints of a node: penalty_start[k]..penalty_start[k + 1] */
     int     *penalty_node; size_t npenalty_node; size_t *penalty_start;
@@ -113,7 +113,7 @@ typedef struct {
 
 /* Searches for positions among points and nodes; each NULL until a position is sampled. */
 typedef struct {
-    pg_nearest *near_point, *near_node;                /* bulk points, nodes */
+    pg_nearest *near_point, *near_node;                /* searches for the nearest bulk point, node */
     pg_family_search *search;                          /* nodes in the support of a position */
     struct galerkin_alike *alike;                      /* positions of a lattice with equal surroundings */
     struct galerkin_again *again;                      /* positions that were sampled before */
@@ -121,9 +121,9 @@ typedef struct {
 
 typedef struct {
     const pg_problem *problem;
-    const galerkin_options *options;                   /* pg_problem.options */
-    int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS */
-    size_t   n;                                        /* nodes */
+    const galerkin_options *options;                   /* borrowed from pg_problem.options */
+    int      dim, nv, threads, bulk;                   /* bulk: set of the evaluation points */
+    size_t   n;                                        /* number of nodes */
     pg_rows  rows[PG_BOND_SETS];                    /* shape functions: geometry of the problem, own values */
     /* rows of the evaluation points for stiffness and force: those of the bulk, or with consistent
      * integration wider ones with corrected derivatives */
@@ -133,7 +133,7 @@ typedef struct {
     galerkin_store *store[PG_BOND_SETS];               /* NULL: every point has a row of its own */
     unsigned char *whole;  /* 1: cells whose derivatives are corrected; NULL: integration is not consistent */
     galerkin_ended *ended;                             /* cells at cracks; NULL: none can end there */
-    const int *material[PG_BOND_SETS];                 /* per point; the problem's */
+    const int *material[PG_BOND_SETS];                 /* of each point; borrowed */
     galerkin_measured    measured;
     galerkin_bounds      bounds;
     galerkin_eigenstrain eigen;
@@ -145,7 +145,7 @@ typedef struct {
     double  *kept, *place;
     galerkin_dilatation *dilatation;                   /* NULL: dilatation is not projected */
     galerkin_change *change;                           /* NULL until galerkin_change_of is called */
-    double  *work;                                     /* ndof */
+    double  *work;                                     /* scratch (ndof) */
     int     *ends;  /* number of bonds that end at each node (n), for damage; NULL until needed */
     size_t  *list[PG_BOND_SETS];                       /* points that lost bonds (scratch of refresh) */
 } galerkin;
@@ -280,7 +280,7 @@ pg_status galerkin_change_cells (galerkin *g, size_t count, const size_t *cell, 
 pg_status galerkin_change_patch (galerkin *g, size_t patch, int supported, double sign);
 void galerkin_change_basis (galerkin *g);
 pg_status galerkin_change_of (void *self, pg_stiffness_change *out);
-/* consistent */
+/* consistent: rows with corrected derivatives (galerkin_consistent.c) */
 pg_status galerkin_consistent_create (galerkin *g);
 void galerkin_consistent_free (galerkin *g);
 /* Updates `sums` to the rows of the bulk: all, or cells with the touched points of g->list[bulk], which is
@@ -296,9 +296,9 @@ void galerkin_ended_free (galerkin *g);
 /* Decides how each cell near the cracks of the state is treated, and evaluates the values on their borders.
  * *moved: 1: the cracks have changed since the last call. */
 pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved);
-size_t galerkin_unended (const galerkin *g);           /* pg_census.unended */
+size_t galerkin_unended (const galerkin *g);           /* number of cells for pg_census.unended */
 size_t galerkin_ended_near (const galerkin *g, size_t *cell); /* cells near cracks (NULL: their number) */
-const pg_rows *galerkin_ended_faces (const galerkin *g);  /* values and grades at the faces of cells */
+const pg_rows *galerkin_ended_faces (const galerkin *g);  /* N and grades at the faces of all cells */
 void galerkin_ended_mark (galerkin *g);                       /* sets g->whole of cells near cracks */
 /* Sets the weights of the listed cells' points, and the derivatives of cells treated in parts, after
  * pg_consistency_apply. */
@@ -323,7 +323,7 @@ void galerkin_dilatation_blocks (void *context, size_t patch, size_t a, size_t m
 /* Pressure of the patches at every node at displacement d, Pa (n). */
 const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d);
 const pg_family *galerkin_dilatation_family (const galerkin *g);            /* nodes of each patch */
-void galerkin_dilatation_gaps (galerkin *g, double t);  /* needs facets measured */
+void galerkin_dilatation_gaps (galerkin *g, double t);  /* sets the gaps; facets must be measured */
 /* Contribution of the flux through the gaps to the traction of a constraint, Pa. */
 double galerkin_dilatation_traction (const galerkin *g, const constraint *q);
 /* f += derivative of the work of the patches' pressures on the gaps, N. */
@@ -384,7 +384,7 @@ void   galerkin_crack_pressure (galerkin *g, double factor, double *P);
 /* The volume of all cracks, m^3, that a displacement d opens. */
 double galerkin_crack_volume   (galerkin *g, const double *d);
 size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out);
-/* basis */
+/* basis: elimination of prescribed displacements (galerkin_basis.c) */
 pg_status galerkin_basis_create (galerkin *g);
 pg_status galerkin_basis_update (galerkin *g);
 /* 1: T depends on the shape functions of one of these nodes */
@@ -396,7 +396,7 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
                                     size_t at);
 /* elements: finite elements on the nodes, as a preconditioner (galerkin_elements.c) */
 pg_status galerkin_elements (void *self, pg_elements *out);
-/* bonds and fields */
+/* bonds: judging by criteria (galerkin_bonds.c) */
 /* Judging of bonds of a set; arrays for utilisation, factor and kind of failure (NULL: not wanted). */
 typedef struct {
     galerkin *g;
@@ -456,7 +456,7 @@ void galerkin_from_nodes (void *self, const double *F, double *f);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value);
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value);
-/* surface */
+/* surface: nodal forces of a uniform stress (galerkin_surface.c) */
 pg_status galerkin_surface (void *self, const double *stress, double *P);
 pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                            double *u, double *stress, double *gradient);
@@ -492,6 +492,6 @@ int    galerkin_again_served (const galerkin *g);      /* 1: some were used agai
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
-/* Eight numbers, for which PG_WIDEST is meant. */
+/* Eight numbers at a time, for functions marked PG_WIDEST. */
 typedef double eight __attribute__ ((vector_size (64), aligned (8)));
 #endif

@@ -123,7 +123,7 @@ static void fill_T (galerkin *g)
         size_t k = (size_t) T->row[T->start[c]] % dim, m = 0, s = 0;
         const elimination *e = &g->supports.side[k];
         long own = -1;
-        /* the unit entry: a master's own row */
+        /* finds the unit entry, in the master's own row */
         for (long q = T->start[c]; own < 0; q++) if (T->value[q] == 1) {
             size_t node = (size_t) T->row[q] / dim;
             for (m = 0; m < e->nmaster && (size_t) e->master[m] != node; m++) continue;
@@ -245,7 +245,7 @@ int galerkin_basis_touched (const galerkin *g, size_t count, const size_t *list)
     for (int k = 0; k < g->dim; k++) {
         const elimination *e = &g->supports.side[k];
         size_t s = 0;
-        for (size_t i = 0; i < count && e->inverse; i++) {  /* both ascend */
+        for (size_t i = 0; i < count && e->inverse; i++) {  /* both lists are ascending */
             while (s < e->n && (size_t) e->slave[s] < list[i]) s++;
             if (s < e->n && (size_t) e->slave[s] == list[i]) return 1;
         }

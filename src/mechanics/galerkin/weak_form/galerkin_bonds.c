@@ -255,7 +255,7 @@ static double elastic_along (const galerkin *g, size_t p, size_t j, const double
     const double *ei = g->measured.strain[PG_NODES] + p * nv, *ej = g->measured.strain[PG_NODES] + j * nv;
     double sum = 0;
     for (size_t a = 0; a < dim; a++) sum += 0.5 * (ei[a] + ej[a]) * xi[a] * n[a];
-    for (size_t k = dim; k < nv; k++) {                /* engineering shear, half of it each way */
+    for (size_t k = dim; k < nv; k++) {                /* engineering shears count half in xy, half in yx */
         int a = shear[k - dim][0], b = shear[k - dim][1];
         sum += 0.25 * (ei[k] + ej[k]) * (xi[a] * n[b] + xi[b] * n[a]);
     }
@@ -377,7 +377,7 @@ pg_status galerkin_census (void *self, pg_census *out)
     PG_TRY (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts));
     out->isolated = (size_t) parts[0], out->fragments = (size_t) parts[1];
     out->unended = galerkin_unended (g);
-    if (out->fragments) --out->fragments;              /* the body itself is none */
+    if (out->fragments) --out->fragments;              /* the largest part is the body itself, no fragment */
 done:
     pg_free (parent);
     return status;

@@ -36,7 +36,8 @@ PG_WIDE static void add_plane_blocks (const double *DB, size_t m, const double *
  * once and stored in the block, whatever its alignment. */
 PG_WIDEST static void add_solid_blocks (const double *DB, size_t m, const double *q, double *k)
 {
-    static const int of[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };  /* s of f[c] with q[l] */
+    /* Voigt number of the stress that multiplies q[l] in f[c] */
+    static const int of[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
     double part[3][9];
     eight x, y, z;
     for (int l = 0; l < 3; l++)

@@ -63,7 +63,7 @@ static void open_around (galerkin *g, size_t cell)
     for (size_t k = f->start[cell]; k < f->start[cell + 1]; k++) g->whole[f->node[k]] = 0;
 }
 
-/* Are all cells complete that this cell needs in order to be whole? */
+/* Have all cells their bonds that this one needs for its derivatives to be corrected? */
 static int complete_around (const galerkin *g, const pg_state *state, size_t cell)
 {
     const pg_family *f = &g->problem->form.consistency->needs;
@@ -88,7 +88,7 @@ static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, siz
     return n;
 }
 
-/* For qsort. */
+/* For qsort: ascending. */
 static int compare (const void *a, const void *b)
 {
     size_t i = *(const size_t *) a, j = *(const size_t *) b;
@@ -122,7 +122,7 @@ done:
     return status;
 }
 
-/* ---- what a change changes ----------------------------------------------------------------------------- */
+/* ---- cells that a change of bonds changes -------------------------------------------------------------- */
 /* Copies of the values at the points of some cells, cell by cell; place (2 a cell): offsets of its bonds and
  * of its points. */
 typedef struct { double *N, *dN, *weight; size_t *place; } kept_rows;

@@ -25,7 +25,7 @@ void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a,
     psi[0] = 1;
     for (int k = 0; k < a->terms - 1; k++) psi[k + 1] = (x[k] - a->centre[k]) / a->size;
     (void) g;
-    for (int i = 0; i < a->terms; i++) {               /* L^-1 q */
+    for (int i = 0; i < a->terms; i++) {               /* solves with the Cholesky factor L */
         for (int j = 0; j < i; j++) psi[i] -= a->L[i * a->terms + j] * psi[j];
         psi[i] /= a->L[i * a->terms + i];
     }
@@ -235,7 +235,7 @@ done:
     return status;
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
+/* ---- creation and update ------------------------------------------------------------------------------- */
 /* Allocates memory and makes the materials without lambda (plain), which give the stress except the pressure
  * of the patches. Rows follow with the first update. */
 pg_status galerkin_dilatation_create (galerkin *g)
@@ -321,7 +321,7 @@ done:
     return status;
 }
 
-/* ---- what the patches add ------------------------------------------------------------------------------ */
+/* ---- contributions of the patches to K ----------------------------------------------------------------- */
 const pg_family *galerkin_dilatation_family (const galerkin *g) { return &g->dilatation->family; }
 
 /* Lame's first parameter of a patch's material, Pa: a patch lies in one material. */

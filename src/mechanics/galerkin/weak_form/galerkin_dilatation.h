@@ -7,7 +7,7 @@
 
 typedef struct {                                       /* points of a patch that intact bonds still join */
     int     terms;                                     /* number of polynomials psi: 1, or dim + 1 */
-    double  centre[3], size, L[16];                    /* psi = L^-1 (1, (x - centre) / size); both in m */
+    double  centre[3], size, L[16];                    /* psi = L^-1 (1, (x - centre) / size), m */
     double *g;  /* sum_p w_p psi_m (p) grad N (p) at the patch's nodes (terms x nodes x dim) */
     /* sum_f w_f psi_m (f) n_k N (f) over its supported facet points f (layout of g); NULL: none */
     double *s;
@@ -23,12 +23,12 @@ struct galerkin_dilatation {
     galerkin_patch *patch;
     /* number of the part of each entry of the patches; -1: its point carries no stress */
     int            *part_of;
-    int            *stamp;                             /* scratch: per node */
+    int            *stamp;                             /* scratch: a mark for each node (n) */
     unsigned char  *mark;                              /* patches that changed */
-    double         *amount, *share;                    /* scratch: per node */
+    double         *amount, *share;                   /* scratch: a pressure and a weight for each node (n) */
     /* Of every facet point: the evaluation point whose patch is continued to it; -1: none. */
     long           *home;
-    size_t         *facet_start, *facet;               /* supported facet points of every patch, and */
+    size_t         *facet_start, *facet;               /* supported facet points of every patch */
     size_t         *facet_entry;                       /* the patch entry of each of them */
     pg_family       family;                            /* nodes of every patch and of its facet points */
 };

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- which patch goes on at a facet -------------------------------------------------------------------- */
+/* ---- patches behind facets ----------------------------------------------------------------------------- */
 /* Does evaluation point p belong to a patch? */
 static int is_covered (const pg_patches *q, size_t p) { return q->start[p + 1] > q->start[p]; }
 

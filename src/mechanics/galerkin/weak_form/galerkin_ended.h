@@ -25,7 +25,7 @@ typedef struct {
     int    guest;                  /* 1: its points stand for parts of other cells */
 } ended_cell;
 
-/* Capacities of the arrays that grow, by their names. */
+/* Capacities of the arrays of galerkin_ended with these names. */
 typedef struct {
     size_t near, seen, x, eye, flux, part, crack, start, node, sight, N, grade, own, wide, side, first,
         next_point, next_side;

@@ -96,7 +96,7 @@ done:
     return status;
 }
 
-/* ---- all others ---------------------------------------------------------------------------------------- */
+/* ---- all bonds outside of the group -------------------------------------------------------------------- */
 typedef struct {
     galerkin *g;
     const pg_state *state;

@@ -27,11 +27,11 @@ enum { PART = 16384, PRINTS = 12 };
  * the next row of its chain + 1. */
 typedef struct { size_t at, bonds, readers; uint64_t print; int next; } kept_row;
 
-/* Storage of different rows; numbers of rows below are + 1; 0: none. */
+/* Storage of different rows; rows are referred to by their number + 1; 0: none. */
 struct galerkin_store {
     kept_row *row;  size_t n, cap;
     size_t   bonds, cap_N, cap_dN, cap_w;          /* bonds of all stored rows; capacities for their values */
-    int     *of;                                       /* the row of each point */
+    int     *of;                                       /* number of the row of each point */
     /* first row of each chain, by fingerprint; number of chains, a power of 2 */
     int     *chain;  size_t chains;
     int     *vacant;                                   /* unused rows, chained, by number of bonds */

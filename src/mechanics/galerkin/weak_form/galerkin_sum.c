@@ -161,7 +161,7 @@ typedef struct {
     const double *x, *at;
     double   *f;
     const unsigned char *active;                       /* blocks of points where x is not zero; NULL: all */
-    int       single;                                  /* 1: without runs */
+    int       single;                                  /* 1: points are summed one by one */
 } summing;
 
 /* s = D e in 3D; loops of constant length. */

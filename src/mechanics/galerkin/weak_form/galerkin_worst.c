@@ -139,7 +139,7 @@ double galerkin_largest (const galerkin *g, double mine)
  * which this bound reaches `least`. */
 typedef struct {
     galerkin_batch batch;                              /* its list collects bonds with at least `least` */
-    double  top_node;                                  /* the largest bound of a node */
+    double  top_node;                                  /* the largest `alone` of a node */
     double  least;
 } search;
 
