@@ -20,7 +20,7 @@ typedef struct {
     size_t cap_start, cap_node, cap_of, cap_cell, cap_weight;
     size_t *of;                                     /* number of its evaluation point, cell, or facet point */
     int    *cell;                                      /* kind of each element, or NO_CELL, SPRINGS */
-    double *weight;                                 /* volume of a point, m^3; of a cell: share in the body */
+    double *weight;                                 /* volume of a point, m^3; factor on a cell's matrix */
     double  reach;
     int     classes;                      /* 1: boxes are two steps wide and join nodes of one parity class */
     double *K, *last;                              /* matrix of the present element; of the last whole cell */

@@ -43,7 +43,7 @@ struct galerkin_alike {
     /* Along each axis: vertices of the padded lattice; first vertex of a block relative to its cell, and
      * number of vertices of a block. */
     long     count[3], first[3], width[3];
-    int     *node;                                     /* at each vertex of the padded lattice; -1: none */
+    int     *node;                                   /* node at each vertex of the padded lattice; -1: none */
     /* vertices of a block; the same rounded up to lanes; offsets of the vertices */
     size_t   block, lanes, *offset;
     size_t   npattern, nkey, cap;

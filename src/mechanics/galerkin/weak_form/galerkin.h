@@ -33,12 +33,12 @@ typedef struct {  /* elimination of one component k at prescribed nodes: C_s d_s
     double *X;                                         /* C_s^-1 C_m (n x nmaster) */
 } elimination;
 
-typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c */
-typedef struct galerkin_sight galerkin_sight;           /* galerkin_sight.c */
-typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
-typedef struct galerkin_change galerkin_change;         /* galerkin_change.c */
-typedef struct galerkin_ended galerkin_ended;           /* galerkin_ended.c */
-typedef struct galerkin_store galerkin_store;           /* galerkin_rows.c */
+typedef struct galerkin_slices galerkin_slices;         /* in galerkin_slices.h */
+typedef struct galerkin_sight galerkin_sight;           /* defined in galerkin_sight.c */
+typedef struct galerkin_dilatation galerkin_dilatation; /* in galerkin_dilatation.h */
+typedef struct galerkin_change galerkin_change;         /* defined in galerkin_change.c */
+typedef struct galerkin_ended galerkin_ended;           /* defined in galerkin_ended.h */
+typedef struct galerkin_store galerkin_store;           /* defined in galerkin_rows.c */
 
 /* Options of the method in the scene (pg_problem.options). */
 typedef struct {

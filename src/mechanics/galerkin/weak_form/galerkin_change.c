@@ -12,7 +12,7 @@ enum { MOST_UNKNOWNS = 1500 };                         /* above that a new matri
 typedef void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
 
 struct galerkin_change {
-    int     lost, basis, loads;                 /* as in pg_stiffness_change; lost: the change is not known */
+    int     lost, basis, loads;              /* flags of pg_stiffness_change; lost: the change is not known */
     int     handed;                         /* the caller has read it: the next refresh begins a new record */
     size_t  n, cap;                                    /* number of nodes; number that K has room for */
     int    *node, *at;                           /* the nodes; position in K + 1 of every node of the cloud */

@@ -47,8 +47,8 @@ struct galerkin_ended {
     unsigned char *sight;           /* 1: intact bonds of the points in `extra` */
     /* Sides of cells that are whole sides of parts: the face, and the part (position in `near`, number). */
     struct { size_t face; int part[2]; } *side;  size_t nside;
-    /* The points and sides of part p of cell k of `near`: a chain from first[PG_PARTS k + p], numbers + 1;
-     * those of sides are negative. */
+    /* Linked lists of the points and sides of part p of cell k of `near`: first[PG_PARTS k + p], then
+     * next_...; numbers + 1, those of sides negative; 0 ends a list. */
     long   *first, *next_point, *next_side;
     size_t blocked; /* number of cells that a crack runs through, left uncorrected */
 };

@@ -491,7 +491,7 @@ done:
     return status;
 }
 
-/* Chains the points and sides of each part. */
+/* Links the points and sides of each part into a list (galerkin_ended.first). */
 static pg_status chain (struct galerkin_ended *e)
 {
     pg_status status = PG_OK;
