@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The table of solvers, what is true of each, and the keys of a scene that belong to each. */
+ * The table of solvers, the flags of each, and the keys of a scene that belong to each. */
 #include "solve/run/solve.h"
 #include <stdio.h>
 #include <string.h>
@@ -21,7 +21,7 @@ const pg_solver_type *pg_solver_find (const char *name)
     return NULL;
 }
 
-/* Without a kind the first of the list is meant, which is the default of solver.kind. */
+/* The flags of a kind; NULL: of the first in the list, which is the default of solver.kind. */
 unsigned pg_solver_flags (const char *kind)
 {
     const pg_solver_type *type = kind ? pg_solver_find (kind) : entries[0];

@@ -25,7 +25,7 @@ done:
     return status;
 }
 
-/* The report so far, with what every process had of its own. */
+/* Reads the report so far and adds up what every process had of its own points. */
 static pg_status take_report (pg_solver *s, pg_state *state, const pg_moved *m)
 {
     pg_status status = PG_OK;
@@ -42,8 +42,8 @@ done:
     return status;
 }
 
-/* What is measured by the first matrix and by states before this one; the matrix itself is made anew, and
- * points of all bonds that are dead by now may be loose. */
+/* Reads scales that come from the first matrix and from earlier states. The matrix itself is made anew;
+ * points of all bonds that are broken by now may be loose. */
 static pg_status take_system (pg_system *sys, const pg_state *state, const pg_moved *m)
 {
     system_factor *f = &sys->direct;

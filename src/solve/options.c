@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Options of the solver from the keys of a scene, and what does not go together. */
+ * Options of the solver from the keys of a scene, and checks of what does not go together. */
 #include "solve/contact/contact.h"
 #include "solve/growth/facet_growth.h"
 #include <math.h>
@@ -9,7 +9,7 @@
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 static int given (const pg_scene *scene, const char *key) { return pg_scene_given (scene, "%s", key); }
 
-/* Filters of the catalogue of solvers, for messages that name those that would do. */
+/* Filters of the catalogue of solvers, for messages that name suitable solvers. */
 static int breaks_in_passing (const pg_solver_type *type, const void *unused)
 {
     (void) unused;
@@ -22,7 +22,7 @@ static int grows_facets (const pg_solver_type *type, const void *unused)
     return (type->flags & PG_SOLVER_FACETS) != 0;
 }
 
-/* Cracks that are held to a path must lie on it. */
+/* Reports tips of cracks that do not lie on the path (failure.path) to which cracks are held. */
 static void check_path (const pg_problem *problem, const pg_scene *scene)
 {
     size_t n;
@@ -41,7 +41,7 @@ static void check_path (const pg_problem *problem, const pg_scene *scene)
     }
 }
 
-/* What growth of fronts in space does not know is refused, not passed over. */
+/* Refuses options that growth of crack fronts (3D) cannot handle. */
 static void read_fronts (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     size_t n;
@@ -59,7 +59,7 @@ static void read_fronts (const pg_solver_options *o, const pg_problem *problem, 
                         "is for cracks in the plane: fronts in space go where they open");
 }
 
-/* Criteria of tips go with facets and the solvers that know them, and with nothing else. */
+/* Reads the options of facets: criteria of tips need facets, and solvers that can grow them. */
 static void read_facets (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     int tips = pg_criterion_of_tips (problem->criterion), asked = o->break_mode == PG_BREAK_FACET;
@@ -91,7 +91,7 @@ static void read_facets (pg_solver_options *o, const pg_problem *problem, const 
     if (tips && problem->dim == 3) read_fronts (o, problem, scene);
 }
 
-/* How bonds break between solves, and what ends a run early. */
+/* Reads how bonds break between solves, and what ends a run early. */
 static void read_breaking (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const char *mode = pg_scene_text (scene, "solver.break"),
@@ -114,7 +114,7 @@ static void read_breaking (pg_solver_options *o, const pg_problem *problem, cons
     read_facets (o, problem, scene);
 }
 
-/* Inertia needs a mass at every point. */
+/* Inertia needs a density of every material. */
 static void need_density (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     for (size_t i = 0; i < problem->nmaterial; i++)
@@ -129,7 +129,8 @@ static int finds_equilibria (const pg_solver_type *type, const void *unused)
     return (type->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
 }
 
-/* Stages are stretches of the load factor, which runs in motion and by relaxation do not have so far. */
+/* Refuses stages for other solvers than those with a load factor, as dynamics and relaxation do not have them
+ * yet. */
 static void check_stages (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     char names[200];
@@ -140,7 +141,7 @@ static void check_stages (const pg_solver_options *o, const pg_problem *problem,
                     o->kind, names);
 }
 
-/* Keys of the solver that belong to other kinds: left over from one of them, they are no fault. */
+/* Lists the keys of the solver that belong to other kinds: left over from one of these, they are no fault. */
 static void find_unused (pg_solver_options *o, const pg_scene *scene)
 {
     char path[PG_STRAY_PATH];
@@ -150,7 +151,7 @@ static void find_unused (pg_solver_options *o, const pg_scene *scene)
         used += (size_t) snprintf (o->unused + used, sizeof o->unused - used, "%s%s", used ? ", " : "", key);
 }
 
-/* What goes_with asks of a solver: does this force take it? */
+/* Context of goes_with: does this force accept a kind of solver? */
 typedef struct { const pg_problem *problem; const pg_force_type *force; } pairing;
 
 static int goes_with (const pg_solver_type *type, const void *context)
@@ -159,7 +160,7 @@ static int goes_with (const pg_solver_type *type, const void *context)
     return !with->force->method.refuses (with->problem, type->flags);
 }
 
-/* A force may refuse kinds of solvers: then the others are named. */
+/* Reports where the force refuses the kind of solver, and names those that it accepts. */
 static void check_force (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     pairing with = { problem, pg_force_of (problem) };
@@ -183,7 +184,7 @@ static int steps_explicitly (const pg_solver_type *type, const void *unused)
     return (type->flags & PG_SOLVER_EXPLICIT) != 0;
 }
 
-/* "bond, fcbm": the forces whose unknowns are displacements of points. */
+/* Writes the names of the forces whose unknowns are displacements of points: "bond, fcbm". */
 static const char *forces_of_points (char *text, size_t size)
 {
     size_t used = 0;
@@ -194,7 +195,7 @@ static const char *forces_of_points (char *text, size_t size)
     return text;
 }
 
-/* Short-range contact acts on displacements of points, time step by time step. */
+/* Checks short-range contact, which acts on displacements of points in explicit time steps. */
 static void check_short_range (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     char names[200];
@@ -217,13 +218,13 @@ static void check_short_range (const pg_solver_options *o, const pg_problem *pro
                         problem->form.approx.type->name, forces_of_points (names, sizeof names));
 }
 
-/* Do single bonds break? */
+/* 1: single bonds break in this problem. */
 static int breaks_bonds (const pg_problem *problem)
 {
     return problem->criterion->type && !pg_criterion_of_tips (problem->criterion);
 }
 
-/* What has faces that can be told from each other. */
+/* Checks that body and force have crack faces that can be told apart. */
 static void check_faces (const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);
@@ -239,7 +240,7 @@ static void check_faces (const pg_problem *problem, const pg_scene *scene)
                         "displacements: use method.stretch: linear, or set none");
 }
 
-/* Cracks that begin in shear under pressure do not open. */
+/* Reports missing contact where cracks can begin in shear under pressure, as these do not open. */
 static void need_contact (const pg_problem *problem, const pg_scene *scene)
 {
     const double origin[3] = { 0, 0, 0 };
@@ -256,7 +257,7 @@ static void need_contact (const pg_problem *problem, const pg_scene *scene)
     }
 }
 
-/* Contact of crack faces goes where it is built, and is refused elsewhere. */
+/* Checks contact of crack faces, and refuses it where it is not implemented. */
 static void check_contact (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);
@@ -303,7 +304,7 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
                         "with contact.kind the load follows equilibrium only: use follow");
 }
 
-/* The common part here, then that of the method; then what goes with nothing. */
+/* Reads the options: the common part, then that of the method; then checks what does not go together. */
 pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     memset (o, 0, sizeof *o);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The patch test of a discretisation (Irons): under the tractions of a uniform stress its displacement should
- * be linear. What is measured is that of the body as it is, whatever makes the difference: families cut by
- * the surface, quadrature, modes without energy, rows that bear loads. */
+ * be linear. The error of the body as it is is measured, whatever its cause: families cut by the surface,
+ * quadrature, zero-energy modes, outermost rows that bear loads. */
 #include "patch_test_factor.h"
 #include "solve/run/solve.h"
 #include "perigal/vector.h"
@@ -10,9 +10,10 @@
 #include <string.h>
 
 enum { STATES = 6, DELAY = 6, FEWEST = 12, MOST = 3000 };
-/* of the energy of the error found so far; of the linear field's */
+/* iterations end when they gain less than this share of the error's energy so far; of the linear field's
+ * energy */
 static const double gain = 1e-4, enough = 1e-7;
-static const double bonds_paid = 3e8;  /* visits of bonds that all iterations together may cost */
+static const double bonds_paid = 3e8;  /* most bonds that all iterations together may visit */
 
 typedef struct {
     const pg_problem *p;
@@ -20,23 +21,23 @@ typedef struct {
     void     *self;
     pg_state *state;
     size_t    n, dim, stride, ndof, nv;
-    int       turns;                                   /* rotations of points have a stiffness */
+    int       turns;                                   /* 1: rotational unknowns have a stiffness */
     const pg_operator *op;
-    pg_operator product;  /* by the matrix that was factored, which is cheaper */
+    pg_operator product;  /* K x by the matrix that was factored, which is cheaper than `op` of the force */
     patch_factor *factor;                              /* NULL: by conjugate gradients */
-    double    middle[3], size;                         /* of the body, m */
-    /* P: tractions of a state; inverse: of the diagonal, 0: held */
+    double    middle[3], size;  /* of the body, m: centre of volume; root mean square distance */
+    /* P: tractions of a state, N; inverse: 1 / diagonal of K, 0: held */
     double   *P, *x, *r, *z, *q, *inverse, *u;
-    double    A[STATES * STATES];  /* of fields of unit strains: one times K times another */
+    double    A[STATES * STATES];  /* x K y for all pairs of fields x, y of unit strain */
     size_t    limit;
     int       supported;                               /* supports on points hold the body */
-    int       rows;  /* loads and supports are borne by the outermost rows */
+    int       rows;  /* 1: loads and supports act on the outermost rows of points */
     pg_patch  out;
 } probe;
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
-/* Centre of volume, and the root of the mean square distance from it, m: by this length translations,
- * turns and strains are scaled alike. */
+/* Finds the centre of volume and the root of the mean square distance from it, m, by which translations,
+ * rotations and strains are scaled alike. */
 static void find_middle (probe *t)
 {
     double all = 0, square = 0;
@@ -53,12 +54,12 @@ static void find_middle (probe *t)
     t->size = sqrt (square / all);
 }
 
-/* A motion that is affine in the place x relative to the middle: d_k = p_k + sum_l R_kl x_l, up to dim
- * displacements (m) and the rotations times the spacing. */
+/* A motion affine in the position x relative to the middle: d_k = p_k + sum_l R_kl x_l; k: dim displacements
+ * (m), then rotations times the spacing. */
 typedef struct { double p[6], R[6][3]; } motion;
 
-/* Motion m about the middle: linear ones of unit strain (engineering shear; nv of them), then translations
- * and turns, with the rotations of points unless these are held. */
+/* Motion m about the middle: the nv linear ones of unit strain (engineering shear), then translations and
+ * rotations, with rotational unknowns unless these are held. */
 static motion motion_of (const probe *t, size_t m)
 {
     static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
@@ -88,7 +89,8 @@ static void add_motion (motion *a, double c, const motion *b)
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* f += d at all points, `stride` numbers a point. Of most bodies the compiler knows both numbers. */
+/* f += d at all points, `stride` numbers a point; for most bodies dim and stride are known to the
+ * compiler. */
 INLINE void add_points (const probe *t, const motion *d, const size_t dim, const size_t stride, double *f)
 {
     const double *place = t->p->cloud.x, *middle = t->middle;
@@ -110,7 +112,7 @@ static void add_field (const probe *t, const motion *d, size_t stride, double *f
     else add_points (t, d, t->dim, stride, f);
 }
 
-/* out = sum of strains times their fields, `stride` numbers a point. */
+/* out = sum of strains times their linear fields, `stride` numbers a point. */
 static void linear_field (const probe *t, const double *strain, size_t stride, double *out)
 {
     motion all = { 0 };
@@ -122,8 +124,8 @@ static void linear_field (const probe *t, const double *strain, size_t stride, d
     add_field (t, &all, stride, out);
 }
 
-/* Sums over the points, weighted by volumes or by 1: of 1 and x (4), of their products (4 x 4), and of those
- * with the numbers of a field (6 x 4). Products of fields with motions, and of motions, follow from them. */
+/* Sums over the points, weighted by volumes or by 1: of products of (1, x) (4 x 4), and of these with the
+ * components of a field (6 x 4). Products of fields with motions, and of motions, follow from them. */
 typedef struct { double square[4][4], field[6][4]; } moments;
 
 INLINE void add_moments (const probe *t, const size_t dim, const size_t stride, int volumes, const double *f,
@@ -151,10 +153,10 @@ static moments moments_of (const probe *t, size_t stride, int volumes, const dou
     return s;
 }
 
-/* Coefficient b of number k of a motion, of 1 and x. */
+/* Coefficient b, of (1, x), in component k of a motion. */
 static double part (const motion *d, size_t k, size_t b) { return b ? d->R[k][b - 1] : d->p[k]; }
 
-/* Sum of a motion times another, or times the field (other NULL). */
+/* Sum over the points of a motion times another one, or times the field (other NULL). */
 static double product (const moments *s, size_t stride, const motion *d, const motion *other)
 {
     double sum = 0;
@@ -166,8 +168,8 @@ static double product (const moments *s, size_t stride, const motion *d, const m
     return sum;
 }
 
-/* Takes out of f (n x stride) its least squares of rigid motions, and with `linear` of linear ones as
- * well; weights: volumes, or 1. Motions that a body does not have (points in a line) are left out by the
+/* Subtracts from f (n x stride) its least squares fit by rigid motions, with `linear` by linear ones as well;
+ * weights: volumes, or 1. Motions that do not exist in a body (points in a line) are left out by the
  * eigenvalues of their Gram matrix. */
 static void without (const probe *t, size_t stride, int volumes, int linear, double *f)
 {
@@ -190,7 +192,7 @@ static void without (const probe *t, size_t stride, int volumes, int linear, dou
 }
 
 /* ---- points at the rim, where there are no facets ------------------------------------------------------ */
-/* Is point i at the rim? Then its neighbours within 1.6 spacings leave one side open: the sum of the unit
+/* 1: point i is outermost: its neighbours within 1.6 spacings leave one side open, as the sum of the unit
  * vectors to them is more than a fifth of their number. */
 static int outermost (const pg_problem *p, size_t i)
 {
@@ -210,9 +212,8 @@ static int outermost (const pg_problem *p, size_t i)
     return sqrt (open) > 0.2 * count || count < (double) dim;
 }
 
-/* Is there a load or support that only the outermost rows of points bear? Tractions are; sets thinner
- * than a horizon are; with shape functions facets are as thin as these. Then what the surface gives way
- * counts as error. */
+/* 1: some load or support acts on the outermost rows of points only: tractions do, and sets thinner than a
+ * horizon; with shape functions facets are as thin. Then the compliance of the surface counts as error. */
 static int borne_by_rows (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim;
@@ -235,9 +236,8 @@ static int borne_by_rows (const pg_problem *p)
 }
 
 /* ---- one state of stress ------------------------------------------------------------------------------- */
-/* The first guess of a state of stress: the minimum of the energy over linear fields. In a body that is
- * too soft or too stiff everywhere alike it is the answer, and iterations only find what differs from
- * place to place. */
+/* Makes the first guess of a state of stress: the minimum of the energy over linear fields. For a body that
+ * is too soft or too stiff everywhere alike it is the answer, and iterations only find local differences. */
 static void start (probe *t, const double *strain)
 {
     double A[STATES * STATES], b[STATES], one[STATES];
@@ -258,9 +258,9 @@ static void start (probe *t, const double *strain)
     for (size_t i = 0; i < t->ndof; i++) if (t->inverse[i] == 0) t->r[i] = 0;
 }
 
-/* Conjugate gradients for K x = P; what an iteration takes off the energy of the error, alpha r.z, tells
- * when to stop (Hestenes and Stiefel; Strakos and Tichy): when six of them together gain less than 1e-4
- * of all so far. Returns that energy. */
+/* Solves K x = P by conjugate gradients. An iteration reduces the energy of the error by alpha r.z (Hestenes
+ * and Stiefel; Strakos and Tichy): they end when six together gain less than 1e-4 of all so far. Returns the
+ * sum of these gains. */
 static double iterate (probe *t, double scale)
 {
     double rz = 0, found = 0, late[DELAY] = { 0 };
@@ -270,7 +270,7 @@ static double iterate (probe *t, double scale)
     for (k = 0; k < t->limit && rz > 0; k++) {
         double curve = 0, alpha, next = 0, of_late = 0;
         t->op->apply (t->op->context, p, t->q);
-        for (size_t i = 0; i < t->ndof; i++) curve += p[i] * t->q[i];                  /* p: 0 where held */
+        for (size_t i = 0; i < t->ndof; i++) curve += p[i] * t->q[i];                  /* p is 0 where held */
         if (!(curve > 0)) break;
         alpha = rz / curve;
         for (size_t i = 0; i < t->ndof; i++) {
@@ -289,9 +289,9 @@ static double iterate (probe *t, double scale)
     return found;
 }
 
-/* What is missing of K x = P: x takes it. *energy: as `iterate` has it; the factor leaves no residual. One of
- * the size of rounding stays: there is nothing to be found, and soft modes would make of it more than it
- * means. What supports on points hold no factor knows. */
+/* Adds to x what is missing in K x = P; *energy: as of `iterate`, which a factor makes complete. A residual
+ * of the size of rounding is left alone, as soft modes would exaggerate it. Supports on points need
+ * iterations. */
 static pg_status find_rest (probe *t, double scale, double *energy)
 {
     pg_status status = PG_OK;
@@ -308,8 +308,8 @@ done:
     return status;
 }
 
-/* Energy that rough forces of unit size put into the body, over their number: where next to nothing resists
- * some motion, it has no bound. */
+/* Measures the softness: energy of the body under rough forces of unit size, over their number, which has no
+ * bound where hardly anything resists some motion. */
 static pg_status measure_softness (probe *t)
 {
     pg_status status = PG_OK;
@@ -325,7 +325,8 @@ static pg_status measure_softness (probe *t)
         if (t->inverse[i] == 0) t->r[i] = 0;
         size += t->r[i] * t->r[i] * t->inverse[i];
     }
-    int settled = t->out.settled;  /* says of the displacement whether it is known, not of this */
+    /* it tells whether the displacement is converged, which these forces are not part of */
+    int settled = t->out.settled;
     PG_TRY (find_rest (t, 0, &energy));
     t->out.settled = settled;
     t->out.softness = energy / size;
@@ -333,7 +334,7 @@ done:
     return status;
 }
 
-/* Square of a displacement integrated over the body, m^5. */
+/* Square of a displacement f integrated over the body, m^5. */
 static double size_of (const probe *t, const double *f)
 {
     double s = 0;
@@ -341,9 +342,9 @@ static double size_of (const probe *t, const double *f)
     return s;
 }
 
-/* nosb, whose unknowns are the displacements of the points: supports that hold these leave the traction that
- * the shape functions of other points see on the facet unanswered, which those of Nitsche do not. 0: there
- * are none. */
+/* Marks supports on points, of a force whose unknowns are displacements of points (nosb): these leave the
+ * traction on the facet unbalanced that acts through shape functions of other points, which Nitsche's method
+ * does not. Returns 0: there are none. */
 static int mark_supports (probe *t, const pg_problem *p)
 {
     size_t marked = 0;
@@ -364,8 +365,7 @@ static int mark_supports (probe *t, const pg_problem *p)
     return t->supported;
 }
 
-/* Motions of a rigid body, as long as the body is: the strains that they give. Translations and turns are
- * numbers nv and on of motion_of. */
+/* End of the rigid motions, which are numbers nv and on of motion_of: translations and rotations. */
 static size_t motions_end (const probe *t) { return t->nv + t->dim + t->dim * (t->dim - 1) / 2; }
 
 static void rigid_field (const probe *t, size_t m, double *out)
@@ -386,9 +386,9 @@ static void measure_rigid_motions (probe *t)
     }
 }
 
-/* The work of a uniform stress' tractions P in those motions, over that of the stress in a strain of the same
- * size: shape functions on the surface that do not reproduce it do work, as supports by Nitsche's method do
- * there. Points of bonds lie behind the surface, which is no such error. */
+/* Measures the work of the tractions P of a uniform stress in rigid motions, over that of the stress in a
+ * strain of the same size: shape functions on the surface that do not reproduce these do work, as do supports
+ * by Nitsche's method. Points of bond-type forces lie behind the surface, which is no such error. */
 static void measure_rigid_work (probe *t, double volume)
 {
     if (t->out.held || t->supported || !t->p->method->shape_functions) return;
@@ -398,7 +398,7 @@ static void measure_rigid_work (probe *t, double volume)
     }
 }
 
-/* The node whose displacement (q: less the linear one) is furthest off. */
+/* Finds the node with the largest error of displacement (q: displacement less the linear one). */
 static void find_worst (probe *t)
 {
     double most = -1;
@@ -410,9 +410,9 @@ static void find_worst (probe *t)
     }
 }
 
-/* A bar's displacement has half the size about its middle that it has about its end, from which displacements
- * are commonly counted: what is not linear in the error is measured against that. Held or read off where it
- * bears loads, the body moves by what its surface gives way: that is in the work of the tractions. */
+/* Measures the error under one state of stress. A bar's displacement about its middle is half of that about
+ * its end, from which displacements are commonly counted: the nonlinear part is compared with the latter.
+ * Where rows bear loads, their compliance also moves the body, which the work of the tractions shows. */
 static pg_status measure_state (probe *t, size_t v)
 {
     pg_status status = PG_OK;
@@ -443,7 +443,7 @@ static pg_status measure_state (probe *t, size_t v)
     error = sqrt ((whole - 0.75 * local) / exact),
     compliance = t->out.held ? NAN : pg_dot (t->ndof, t->P, t->x) / work - 1;
     if (t->supported) error = 0.5 * sqrt (whole / exact), compliance = NAN;
-    if (t->rows) error = fmax (error, fabs (compliance));              /* fmax passes NAN by */
+    if (t->rows) error = fmax (error, fabs (compliance));              /* fmax ignores NAN */
     if (t->out.measured && !(error > (1 + 1e-6) * t->out.error) && !isnan (error)) goto done;
     t->out.measured = 1, t->out.error = isnan (error) ? INFINITY : error, t->out.state = (int) v;
     t->out.compliance = compliance;
@@ -453,8 +453,8 @@ done:
 }
 
 /* ---- the probe ----------------------------------------------------------------------------------------- */
-/* The outermost points keep their linear field: without loads to carry, and where the body is in several
- * parts, each of which tractions would leave free to turn by itself. */
+/* Holds the outermost points at their linear field: without loads, and where the body is in several parts,
+ * which tractions would leave free to rotate separately. */
 static void hold_rim (probe *t)
 {
     t->out.held = 1;
@@ -462,7 +462,7 @@ static void hold_rim (probe *t)
         if (outermost (t->p, i)) for (size_t k = 0; k < t->stride; k++) t->inverse[i * t->stride + k] = 0;
 }
 
-/* The force on the bare body and its unknowns. Iterations are bounded by what they may cost. */
+/* Makes the force on the bare body and its unknowns, and bounds the iterations by their cost. */
 static pg_status prepare (probe *t)
 {
     pg_status status = PG_OK;
@@ -484,7 +484,7 @@ done:
     return status;
 }
 
-/* K x by the matrix of a probe, and its diagonal, the last entry of each column. */
+/* y = K x by the matrix of a probe; `diagonal`: its diagonal, the last entry of each column. */
 static void multiply (void *context, const double *x, double *y)
 {
     const probe *t = context;
@@ -498,17 +498,17 @@ static void diagonal (void *context, double *d)
     for (size_t i = 0; i < t->ndof; i++) d[i] = K->value[K->start[i + 1] - 1];
 }
 
-/* Will the body stay as it is here, without broken bonds? Then its shape functions are kept for the run; else
- * they would lie in memory beside those of the run. */
+/* 1: the body will stay as here, without broken bonds, so that its shape functions are kept for the run; else
+ * they would take memory beside those of the run. */
 static int lasts (const pg_problem *p)
 {
     return !p->plain && p->method->shape_functions && !p->criterion->type && p->crack.given.n == 0;
 }
 
-/* Has the run the material of the bare body everywhere? */
+/* 1: the run has the material of the bare body everywhere. */
 static int is_uniform (const pg_problem *p) { return p->nmaterial == 1 && p->at.nlaw == 1; }
 
-/* A factor where it costs less than iterations and the body is whole. */
+/* Makes a factor where it costs less than iterations and the body is connected. */
 static pg_status make_factor (probe *t, const pg_problem *p, int held)
 {
     pg_status status = PG_OK;
@@ -521,7 +521,7 @@ done:
     return status;
 }
 
-/* K between the fields of unit strains, and its diagonal. */
+/* Finds A, K between the fields of unit strains, and the inverse diagonal of K. */
 static void measure_unit_strains (probe *t)
 {
     for (size_t v = 0; v < t->nv; v++) {
@@ -553,7 +553,7 @@ static void clear (probe *t)
     if (t->self) t->force->free (&t->self);
 }
 
-/* What the intact body lacks: points that carry no stress, and parts that hang together by nothing. */
+/* Counts defects of the intact body: points without stress, isolated points, separate parts. */
 static pg_status count_defects (probe *t)
 {
     const pg_rows *bulk = &t->p->bonds.rows[t->p->form.integration->at_nodes ? PG_NODES : PG_POINTS];
@@ -566,8 +566,8 @@ static pg_status count_defects (probe *t)
     return status;
 }
 
-/* Measures the error under each stress; with supports on points that bear on facets a second time with
- * them. The worst counts. */
+/* Measures the error under each stress, with supports on points that act on facets a second time with these.
+ * The worst counts. */
 pg_status pg_patch_probe (pg_problem *problem)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The equilibria of the patch test by a factor of K. In the plane, and of small bodies in space, K has a
+ * The equilibria of the patch test by a factor of K. In 2D, and for small bodies in 3D, K has a
  * cheap factor, and the run that follows will make such a factor as well, so that memory suffices (it takes K
  * as it is, where the body has one material and nothing breaks); conjugate gradients need some
  * 60 + 1.6 n^(1/2) products with K for all states of stress and the measure of softness together (107, 123
@@ -16,15 +16,15 @@
 
 struct patch_factor { const pg_linear_type *linear; void *self; pg_sparse K; };
 
-/* Seconds by stored rates, never measured: a product with K, of each bond; assembling K and ordering its
- * unknowns, of each bond; operations of a factorization. */
+/* Estimated seconds, never measured: of a product with K, for each bond; of assembling K and ordering its
+ * unknowns, for each bond; of an operation of a factorization. */
 static const double product_cost = 2.5e-9, assembly_cost = 1.5e-7, operation_cost = 1 / 20e9;
-/* Pivots of parts that nothing holds are of the size of rounding. */
+/* Below this share of the largest one pivots belong to parts that nothing holds. */
 static const double least_pivot = 1e-13;
-/* Points of a lattice that is small. */
+/* Most points of a small lattice. */
 enum { MOST_ON_LATTICE = 2000 };
 
-/* What iterations would cost, s. */
+/* Seconds that iterations would take. */
 static double cost_of_iterations (const pg_problem *p, size_t products)
 {
     double states = pg_voigt_size (p->dim) + 1, expected = 60 + 1.6 * sqrt ((double) p->cloud.n);
@@ -40,8 +40,8 @@ static int has_matrix (const pg_problem *p, const pg_force_type *force, void *se
     return !(force->basis && force->basis (self)) && pg_force_matrix (force, self);
 }
 
-/* Displacements of unknown `at` in the rigid motions of the body: translations, then turns about the middle
- * over the size of the body (at most 6 numbers; returns how many). */
+/* out = displacements of unknown `at` in the rigid motions of the body: translations, then rotations about
+ * the middle over the size of the body (at most 6; returns how many). */
 static size_t rigid_motions (const pg_cloud *c, const double *middle, double size, size_t at, double *out)
 {
     size_t dim = (size_t) c->dim, k = at % dim, n = dim;
@@ -56,9 +56,9 @@ static size_t rigid_motions (const pg_cloud *c, const double *middle, double siz
     return n;
 }
 
-/* Springs on as many unknowns as there are rigid motions, each as stiff as K is there, the next one where
- * what those before leave free moves the body most (QR decomposition with pivots). The last entry of a column
- * is its diagonal. */
+/* Adds springs on as many unknowns as there are rigid motions, each as stiff as K is there: the next one
+ * where the motions left free by those before move the body most (QR decomposition with pivots). The last
+ * entry of a column of K is its diagonal. */
 static pg_status hold (pg_sparse *K, const pg_cloud *c)
 {
     pg_status status = PG_OK;
@@ -129,7 +129,7 @@ pg_status patch_factor_create (patch_factor **out, const pg_problem *bare, const
     status = f->linear->factor (f->self, &f->K);
     f->linear->info (f->self, &info);
     if (status == PG_OK && info.pivots > least_pivot) *out = f, f = NULL;
-    if (status == PG_E_NOT_SPD) status = PG_OK;        /* parts move freely: iterations can do with that */
+    if (status == PG_E_NOT_SPD) status = PG_OK;        /* parts move freely: iterations can handle that */
 done:
     patch_factor_free (&f);
     return status;

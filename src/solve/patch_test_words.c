@@ -5,14 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Voigt order; in two dimensions the third is xy. */
+/* Name of the worst state of stress, in Voigt order; in 2D the third is xy. */
 const char *pg_patch_state (const pg_problem *p)
 {
     static const char *const names[] = { "xx", "yy", "zz", "xy", "yz", "zx" };
     return names[p->dim == 2 && p->quality.patch.state == 2 ? 3 : p->quality.patch.state];
 }
 
-/* A place, such as (0.1, 0.2) m */
+/* Writes a position, such as (0.1, 0.2) m. */
 void pg_patch_place (const pg_problem *p, const double *x, char *out, size_t size)
 {
     int n = snprintf (out, size, "(");
@@ -21,14 +21,14 @@ void pg_patch_place (const pg_problem *p, const double *x, char *out, size_t siz
     if ((size_t) n < size) snprintf (out + n, size - (size_t) n, ") m");
 }
 
-/* Per cent, to two digits */
+/* A share in per cent, rounded to two digits. */
 static double percent (double share)
 {
     double value = 100 * fabs (share), unit = value > 0 ? pow (10, floor (log10 (value)) - 1) : 1;
     return isfinite (value) ? round (value / unit) * unit : value;
 }
 
-/* One sentence: the error, and by how much the body is too soft or too stiff where that is most of it. */
+/* Writes one sentence: the error, and how much too soft or too stiff the body is where that is most of it. */
 void pg_patch_words (const pg_problem *p, char *out, size_t size)
 {
     const pg_patch *t = &p->quality.patch;
@@ -45,7 +45,7 @@ void pg_patch_words (const pg_problem *p, char *out, size_t size)
                   pg_patch_state (p), t->settled ? "" : "at least ", percent (t->error), by);
 }
 
-/* Points across the thinnest side of the box around all points */
+/* Number of points across the thinnest side of the box around all points. */
 static double thinnest (const pg_problem *p)
 {
     const pg_cloud *c = &p->cloud;
@@ -55,8 +55,8 @@ static double thinnest (const pg_problem *p)
     return round (least);
 }
 
-/* Does the influence function, with its slope, go to zero at the horizon, and is it flat at the point itself?
- * Such functions are integrated best. */
+/* 1: the influence function and its slope are zero at the horizon, and its slope is zero at the point itself:
+ * such functions are integrated best. */
 static int ends_smoothly (const pg_kernel *kernel)
 {
     const double q[2] = { 1e-9, 1 - 1e-9 };
@@ -65,8 +65,8 @@ static int ends_smoothly (const pg_kernel *kernel)
     return fabs (dw[0]) < 1e-6 && fabs (w[1]) < 1e-6 && fabs (dw[1]) < 1e-6;
 }
 
-/* The change that helps most: bonds want more points, shape functions consistent integration or exact
- * derivatives. */
+/* Writes the change that helps most: more points for bonds, consistent integration or exact derivatives for
+ * shape functions. */
 void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
     double reach = p->form.approx.horizon / p->cloud.h, across = thinnest (p);
@@ -102,7 +102,7 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
     else snprintf (out, size, "use a smaller spacing%s", exact ? "" : ", or approximation: rkpm");
 }
 
-/* Too large an error is refused unless the scene accepts it; too few neighbours always. */
+/* Refuses too large an error unless the scene accepts it, too few neighbours always. */
 pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)
 {
     const pg_patch *t = &p->quality.patch;

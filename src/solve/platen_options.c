@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What does not go together with platens. */
+ * Checks what does not go together with platens. */
 #include "solve/contact/contact.h"
 #include <math.h>
 #include <stdio.h>
 
-/* Does a facet lie on the platen, face to face? */
+/* 1: a facet lies on the platen, face to face. */
 static int lies_on (const pg_problem *p, const pg_platen *platen, size_t facet)
 {
     size_t dim = (size_t) p->dim;
@@ -43,7 +43,7 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
                         "do not grow in proportion to the load else: use fixed");
 }
 
-/* What is for motion alone. */
+/* Refuses keys that have a meaning in explicit dynamics alone. */
 static void refuse_masses (const pg_problem *problem, const pg_scene *scene)
 {
     static const char *const key[2] = { "mass", "velocity" };
@@ -56,7 +56,7 @@ static void refuse_masses (const pg_problem *problem, const pg_scene *scene)
         }
 }
 
-/* Points of the body inside a platen at the start would be thrown out. */
+/* Refuses points of the body inside a platen at the start, which would be thrown out. */
 static void refuse_inside (const pg_problem *problem, size_t i, const pg_scene *scene)
 {
     size_t dim = (size_t) problem->dim, at = 0;
@@ -76,7 +76,7 @@ static void refuse_inside (const pg_problem *problem, size_t i, const pg_scene *
                     dim > 1 ? x[at * dim + 1] : 0, dim > 2 ? x[at * dim + 2] : 0, -worst);
 }
 
-/* In explicit steps: penalty on displacements of points. */
+/* Checks platens in explicit steps, which act by a penalty on displacements of points. */
 static void check_moving (const pg_problem *problem, const pg_scene *scene)
 {
     char path[64];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The solver object: steps with refusal, the report of the run. */
+ * The solver object: its steps, which may be refused, and the report of the run. */
 #include "solve/growth/facet_growth.h"
 #include "solve/run/body_parts.h"
 #include "solve/contact/contact.h"
@@ -47,7 +47,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_ALLOC (s->reaction, PG_REACTIONS * problem->boundary.nload);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
-    s->options.scene = NULL;                               /* pg_solver_begin gets it anew */
+    s->options.scene = NULL;                               /* pg_solver_begin sets it again */
     if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
         pg_statistics_warn (
             &s->report,
@@ -76,8 +76,9 @@ void pg_solver_free (pg_solver **solver)
     *solver = NULL;
 }
 
-/* Where a part of the body is free to move under loads that do not balance the run ends before its first
- * step, whatever it would be solved by; contact, or what a stage removes, may change that. */
+/* Ends the run before its first step where a part of the body is free to move under loads that do not
+ * balance, whatever the solver; not checked with contact or stages that remove parts, which may change
+ * that. */
 static pg_status check_parts (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->break_loop.system;
@@ -91,7 +92,7 @@ static pg_status check_parts (pg_solver *s, const pg_state *state)
     return options_fault (&s->options, "boundary", "%s", text);
 }
 
-/* Facets grow from cracks, and from a strength; a body that has neither stays whole. */
+/* Warns where no crack can grow: facets grow from cracks, or where a strength is reached. */
 static void doubt_growth (pg_solver *s, const pg_state *state)
 {
     facet_growth *g = s->break_loop.growth;
@@ -104,7 +105,7 @@ static void doubt_growth (pg_solver *s, const pg_state *state)
     g->said |= FACET_SAID_NOTHING;
 }
 
-/* Points that see too little, points alone, parts of the body, as the bonds are now. */
+/* Counts points with too few neighbours, isolated points and parts of the body, by the present bonds. */
 static pg_status count_points (pg_solver *s)
 {
     pg_system *sys = &s->break_loop.system;
@@ -118,7 +119,8 @@ static pg_status count_points (pg_solver *s)
     return status;
 }
 
-/* Once: points that see too little beside cracks, more than the bare body has, which its patch test tells. */
+/* Warns once of points beside cracks with too few neighbours for a strain, if there are more than in the body
+ * without cracks, of which its patch test warns. */
 static void tell_blind (pg_solver *s)
 {
     char at[100];
@@ -133,7 +135,8 @@ static void tell_blind (pg_solver *s)
                         r->degenerate_points == 1 ? "s" : "", r->degenerate_points == 1 ? "ies" : "y");
 }
 
-/* Warns once of points between cracks that hang on nothing, so that their displacement is not known. */
+/* Warns once of points between cracks that are no evaluation point's neighbours: their displacement is not
+ * determined. */
 static void tell_alone (pg_solver *s)
 {
     size_t n = s->report.isolated_nodes,
@@ -167,7 +170,7 @@ pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *
     s->begun = 1;
 done:
     status = options_blame (status, &s->options, "solver");
-    s->options.scene = NULL;                               /* may be gone from here on */
+    s->options.scene = NULL;                               /* the scene may be gone from here on */
     return status;
 }
 
@@ -202,9 +205,9 @@ const pg_force_type *pg_solver_force (const pg_solver *s, void **self)
     return s->break_loop.system.force;
 }
 
-/* The accepted state before a step, by which a refused one is undone. Alive bits are most of a state, and few
- * of them change: where the last step was accepted, those of the bonds that it broke are brought up to date,
- * and the others are what they were. */
+/* Copies the accepted state before a step, which a refused step returns to. Alive bits are most of a
+ * state, and few of them change: where the last step was accepted, only those of the bonds that it broke
+ * are copied. */
 static pg_status save_state (pg_solver *s, const pg_state *state)
 {
     const break_loop *b = &s->break_loop;
@@ -214,8 +217,8 @@ static pg_status save_state (pg_solver *s, const pg_state *state)
     return pg_state_copy_fields (s->backup, state);
 }
 
-/* Shortcuts of explicit steps and of the force, as far as they go by now: told after every step, so that a
- * checkpoint has them, also of what later steps do no more. */
+/* Reports shortcuts of explicit steps and of the force, by the present counts: after every step, so that a
+ * checkpoint has them, even those that later steps do not use any more. */
 static void report_sums (pg_solver *s)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -233,7 +236,7 @@ static void report_sums (pg_solver *s)
         pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
 }
 
-/* Then the largest overlap is that of its pairs. */
+/* 1: the overlap to report is that of pairs of points or platens, not of crack faces. */
 static int short_range (const pg_solver *s)
 {
     const pg_contact_setting *c = &s->options.contact;
@@ -242,7 +245,7 @@ static int short_range (const pg_solver *s)
 
 const pg_load *pg_solver_loads (const pg_solver *s) { return s->problem->boundary.load; }
 
-/* An accepted state at rest is one that something holds. */
+/* Refuses a static state in which nothing holds a part of the body. */
 static pg_status check_rest (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->break_loop.system;
@@ -250,7 +253,8 @@ static pg_status check_rest (pg_solver *s, const pg_state *state)
     return body_parts_check (sys, state->factor, state->d, !sys->contact);
 }
 
-/* Energies of an accepted state are numbers, on every rank; explicit steps watch the energy by themselves. */
+/* Refuses a state whose energies are not finite on some rank; explicit steps watch the energy by
+ * themselves. */
 static pg_status check_numbers (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -268,8 +272,8 @@ done:
     return status;
 }
 
-/* The method advances the state. What fails leaves the last accepted state behind, and a message with the
- * step and the load it was at. */
+/* Advances the state by a step of the method. A failed step restores the last accepted state, with a message
+ * that names the step and the load. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -317,7 +321,8 @@ done:
         snprintf (text, sizeof text, "%s", pg_last_error ());
         /* fields asked for now are those of the accepted state */
         system_refresh (&s->break_loop.system, s->backup, NULL);
-        system_forget_preconditioner (&s->break_loop.system);  /* bonds live again that it does not know */
+        /* it does not know bonds that are intact again */
+        system_forget_preconditioner (&s->break_loop.system);
         s->break_loop.work = s->backup->work, s->break_loop.round = 0;
         break_loop_return (&s->break_loop);
         stage_return (s);
@@ -338,23 +343,23 @@ void pg_solver_watch (pg_solver *s, pg_watch watch, void *context)
     s->break_loop.watch = watch, s->break_loop.watching = context;
 }
 
-/* By its own word (stop set, events, failure) or when the method has made all its steps. */
+/* 1: the run has ended by a condition (stop set, events, failure), or the method has made all its steps. */
 int pg_solver_done (const pg_solver *s, const pg_state *state)
 {
     return s->finished || (s->type->done && s->type->done (s, state));
 }
 
-/* By this the overlap of crack faces is judged, m. */
+/* Largest displacement, m, with which the overlap of crack faces is compared. */
 static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;
     for (size_t i = 0; i < s->break_loop.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
-    /* a message that is lost: then nothing is compared with it */
+    /* where ranks fail to communicate: nothing is compared with it */
     return pg_cloud_most (&s->problem->cloud, 1, &top) == PG_OK ? top : INFINITY;
 }
 
-/* Work that was spared so often: the time saved is that of so many, `made` of which took the seconds of a
- * phase. */
+/* Reports work that was skipped so often. The time saved is estimated by the seconds of PG_SECONDS_FACTOR,
+ * which `made` such pieces of work took. */
 static void report_spared (pg_solver *s, long times, const char *what, size_t made, const char *why)
 {
     char text[96];
@@ -364,9 +369,9 @@ static void report_spared (pg_solver *s, long times, const char *what, size_t ma
                         (double) times * s->report.seconds[PG_SECONDS_FACTOR] / (double) made, text, why);
 }
 
-/* Work that breaking and steps in motion did not cost: factors and preconditioners that were kept, and
- * residuals that the iterations carried along: a sweep over all bonds each, and another for its damping, by a
- * stored rate. With the counts of now. */
+/* Reports work that was skipped, by the present counts: factors and preconditioners that were kept, and
+ * residuals that the iterations carried along (each saves a loop over all bonds, and another for damping, by
+ * a stored rate). */
 static void report_skips (pg_solver *s)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -411,10 +416,9 @@ static void report_skips (pg_solver *s)
                         "measured");
 }
 
-/* What growing cracks dissipate along equilibria is what their area takes; said at the end. A few facets
- * tell no more than that it is out by a factor: then what broke was smaller than one of them. What facets
- * under a large stress, and tips that were pressed together, do to the strain energy of a discretised body:
- * bench/stress_along_crack.py. */
+/* Warns at the end where growing cracks have not dissipated what their area takes. With a few facets only a
+ * wrong factor is noticed, as what broke was smaller than one of them. How facets under a large stress along
+ * the crack, and closed tips, change the strain energy of a discretised body: bench/stress_along_crack.py. */
 static void warn_of_facets (pg_solver *s)
 {
     const pg_statistics *r = &s->report;

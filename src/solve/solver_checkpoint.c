@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What later steps depend on, walked over once for writing and for reading back: the state (also that at the
+ * Checkpoint of what later steps depend on, one walk to write and read it: the state (also that at the
  * start of a step in its middle), energies, counts, what a method carries from step to step. Caches are not
  * kept: they are functions of the bonds and the cracks, made again in the same order. The factor of an
- * earlier K is one of them: it is made again from the bonds that lived then, and the cracks of then. */
+ * earlier K is one of them: it is made again from the bonds and cracks of that time. */
 #include "solve/contact/contact.h"
 #include "solve/system/inverse.h"
 #include "solve/growth/facet_growth.h"
 #include <string.h>
 
-static const long most = 1L << 50;                     /* of any count */
+static const long most = 1L << 50;                     /* largest value of any count */
 /* Bytes that are 0 or 1: anything else in a file is a fault, as they are used in arithmetic. */
 static pg_status keep_flags (const char *name, size_t n, unsigned char *flag, const pg_keeper *k)
 {
@@ -42,7 +42,7 @@ done:
     return status;
 }
 
-/* A text of an entry of the report. */
+/* Writes or reads back text i of a list in the report. */
 static pg_status keep_entry (const char *name, size_t i, size_t size, char *text, const pg_keeper *k)
 {
     char part[64];
@@ -94,7 +94,7 @@ done:
     return status;
 }
 
-/* Bonds that died in the step at hand, which is in its middle. */
+/* Bonds that broke in the step at hand, which was stopped in its middle. */
 static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -105,8 +105,7 @@ done:
     return status;
 }
 
-/* Bonds near their limit, as the last look in the step at hand has found them: the next round asks these
- * first. */
+/* Bonds near their limit when last judged in the step at hand: the next round judges these first. */
 static pg_status keep_near (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -154,7 +153,7 @@ done:
 /* Does the force offer K x without a matrix? */
 static int operates (const pg_system *s) { return s->force->operator_ && s->force->operator_ (s->self); }
 
-/* Cracks in the plane of the moment in which `factored` lived. */
+/* 2D: the cracks at the time when the alive bits `factored` were copied. */
 static pg_status keep_earlier_paths (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -165,8 +164,8 @@ done:
     return status;
 }
 
-/* The multilevel preconditioner and the factor of an earlier K are caches: what is kept is which bonds lived
- * when they were made (`factored`) and the cracks of that moment, from which they are made again. */
+/* The multilevel preconditioner and the factor of an earlier K are caches: kept are the alive bits
+ * (`factored`) and the cracks at the time when they were made, from which they are made again. */
 static pg_status keep_preconditioner (pg_system *s, int solves, long factored, const pg_keeper *k)
 {
     system_iterations *it = &s->iterative;
@@ -191,7 +190,7 @@ done:
     return status;
 }
 
-/* What has broken since the factor of a motion was made. */
+/* The inverse that follows breaking since the factor was made (dynamics). */
 static pg_status keep_following (pg_system *s, const pg_keeper *k)
 {
     system_updates *u = &s->updates;
@@ -206,7 +205,7 @@ done:
     return status;
 }
 
-/* What a factor and finite elements have cost in this motion, and how well rough solutions did. */
+/* Costs counted for a factor and for finite elements in dynamics, and how well inexact solutions did. */
 static pg_status keep_ways (pg_ways *w, pg_rough *rough, const pg_keeper *k)
 {
     return pg_keep_fields (k, "system", "ways", "ways.seconds", 1, PG_ROWS (
@@ -307,7 +306,7 @@ done:
     return status;
 }
 
-/* The factor or preconditioner of an earlier K, of the bonds and cracks of that moment. */
+/* Makes the factor or preconditioner of an earlier K again, from the bonds and cracks of that time. */
 static pg_status rebuild_earlier (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -329,8 +328,7 @@ done:
     return status;
 }
 
-/* Caches again as they were: the kept factor from what it was made of, all else from the bonds that live
- * now. */
+/* Makes the caches again: the kept factor from the bonds of its time, all else from the present bonds. */
 static pg_status rebuild (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -357,7 +355,8 @@ const pg_state *pg_solver_accepted (const pg_solver *s, const pg_state *state)
     return s->break_loop.round > 0 ? s->backup : state;
 }
 
-/* For runs that go on among other processes; all of it is in what else is kept, step by step of the walk. */
+/* Keeps sums over a rank's own points, for runs that go on with other ranks; the data repeat what is kept
+ * elsewhere. */
 static pg_status keep_shares (const pg_solver *s, const pg_state *state, const pg_keeper *k)
 {
     const break_loop *b = &s->break_loop;

@@ -68,7 +68,7 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
-/* Fixed load steps remember nothing but the work balance of the last one. */
+/* Fixed load steps keep only the work balance of the last one. */
 static pg_status static_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
 {
     if (s->options.event) return event_moved (s, state, moved);
@@ -84,11 +84,11 @@ static int is_rough (const pg_solver_options *o)
     return o->contact.kind != PG_CONTACT_NONE && (o->contact.coefficient > 0 || o->contact.cohesion > 0);
 }
 
-/* Event stepping by loads that do not all grow with the load factor. */
+/* Refuses contact for which event stepping cannot handle loads that do not all grow with the load factor. */
 static void check_faces (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
                          int closes)
 {
-    /* Coulomb's cone is round in space: forces are no straight lines between changes of status */
+    /* in 3D Coulomb's cone is round: forces are not linear between changes of status */
     if (is_rough (o) && problem->dim == 3)
         pg_scene_fault (scene, "solver.stepping",
                         "event goes with friction in space where all loads grow with the load factor: with a "
@@ -99,7 +99,7 @@ static void check_faces (const pg_solver_options *o, const pg_problem *problem, 
                         "grow with the load factor: with a constant part, cohesion, or stages, use fixed");
 }
 
-/* What does not go together with the stepping that was asked for, or found. */
+/* Reports what does not go together with the kind of stepping that was asked for, or chosen. */
 static void check_stepping (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
                             int closes)
 {
@@ -119,7 +119,7 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
         pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
 }
 
-/* Fixed load steps: of a stage, and of the run. */
+/* Reads the number of fixed load steps: of a stage, and of the run. */
 static void read_steps (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     pg_static_options *own = PG_OWN (pg_static_options, o);
@@ -130,7 +130,8 @@ static void read_steps (pg_solver_options *o, const pg_problem *problem, const p
         o->steps += problem->boundary.stage[k].steps ? problem->boundary.stage[k].steps : own->steps;
 }
 
-/* event where it can be: loads that are proportional to the load factor make it exact and cheap. */
+/* Reads the options. stepping: auto takes event where loads are proportional to the load factor, which makes
+ * it exact and cheap. */
 static void static_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const char *stepping = pg_scene_text (scene, "solver.stepping");
@@ -162,7 +163,7 @@ static const char *static_manner (const pg_solver_options *o)
     return o->event ? by_events[o->on_instability] : ", fixed load steps";
 }
 
-/* A run that is in motion has inertia in its matrix. */
+/* The matrix includes inertia while an instability is in motion. */
 static const dynamics *static_dynamics (pg_solver *s)
 {
     return instability_dynamics (&events_of (s)->unstable);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first
- * step. */
+ * Warnings before the first step of a run: what is legal in a scene, but probably not intended. */
 #include "perigal/fracture.h"
 #include "solve/run/solve.h"
 #include <math.h>
@@ -17,8 +16,8 @@ static int acts_at (const pg_problem *p, const pg_load *load, int k, double t)
     return 0;
 }
 
-/* Does component k of a load ever differ from zero? It may end there (a table that comes back), so that
- * it is looked at where its table has rows, or at times all along the run. */
+/* Does component k of a load ever differ from zero? It may end at zero (a table that comes back), so that it
+ * is also checked at the rows of its table and at times all along the run. */
 static int acts (const pg_problem *p, const pg_load *load, int k, double end)
 {
     enum { LOOKS = 7 };
@@ -30,8 +29,8 @@ static int acts (const pg_problem *p, const pg_load *load, int k, double end)
     return 0;
 }
 
-/* Rigid motions that the prescribed displacements leave free: the least eigenvalue of sum (e_k . motion)^2
- * over all of them, motions in units of the body's size. */
+/* 1: prescribed displacements leave a rigid motion free: the least eigenvalue of sum (e_k . motion)^2 over
+ * all of them is zero, motions being in units of the body's size. */
 static int may_turn (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim, n = dim == 2 ? 3 : 6, count = 0;
@@ -70,12 +69,12 @@ static int held_along (const pg_problem *p, int k)
 }
 
 /* Warns of rigid motions that nothing prevents, and of bodies without a load. In dynamics inertia holds a
- * body, and only the load is asked for. */
+ * body, and only loads are checked. */
 static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
-        /* what platens hold shows in contact only */
+        /* with platens only contact tells what they hold */
         int held = !(o->flags & PG_SOLVER_QUASI_STATIC) || p->boundary.nplaten || held_along (p, k);
         for (size_t l = 0; l < p->boundary.nload; l++)
             moving |= acts (p, &p->boundary.load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
@@ -97,7 +96,7 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
             report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
 }
 
-/* A displacement on `all` is one of every point, not of the surface. */
+/* Warns of a displacement on `all`, which is prescribed at every point, not on the surface alone. */
 static void doubt_all (pg_statistics *report, const pg_problem *p)
 {
     unsigned held = 0;
@@ -115,13 +114,13 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
                     "its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
 }
 
-/* How far the points of a set lie inside its facets, m, on the mean; along: mean sizes of the components of
- * the normals there. 0: it has no facets, or its points lie on them. All ranks ask. */
+/* Mean depth of the points of a set below its facets, m; along: mean sizes of the components of the normals
+ * there. 0: the set has no facets, or its points lie on them. All ranks call. */
 static double depth_of (const pg_problem *p, const pg_set *set, double *along)
 {
     enum { SAMPLE = 64 };
     size_t dim = (size_t) p->dim, step = set->nfacet / SAMPLE + 1;
-    double sum[5] = { 0 };                             /* of facets, of depths, of components */
+    double sum[5] = { 0 };                             /* numbers of facets, sums of depths, of components */
     for (size_t f = 0; f < set->nfacet; f += step) {
         if (!set->npoint || !pg_problem_owns_facet (p, (size_t) set->facet[f])) continue;
         const double *c = p->cells.facet_centre + (size_t) set->facet[f] * dim,
@@ -143,8 +142,8 @@ static double depth_of (const pg_problem *p, const pg_set *set, double *along)
     return sum[0] > 0 ? sum[1] / sum[0] : 0;
 }
 
-/* Prescribed at points, displacements act where these lie: on a lattice of centres half a spacing inside the
- * surface, so that the body is that much shorter for its loads, by both ends together. */
+/* Warns where displacements act below the surface: those prescribed at points act there, on a lattice of cell
+ * centres half a spacing inside, so that the body is shorter for its loads by both ends together. */
 static void doubt_depth (pg_statistics *report, const pg_problem *p)
 {
     double deepest = 0, along[3], shorter[3] = { 0 }, most = 0;
@@ -155,7 +154,7 @@ static void doubt_depth (pg_statistics *report, const pg_problem *p)
         const pg_load *load = &p->boundary.load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->share
             || pg_set_points (load->set) <= (size_t) p->dim)
-            continue;                                  /* so few points are a pin */
+            continue;                                  /* so few points are meant as a pin */
         double deep = depth_of (p, load->set, along);
         if (!(deep > 0.1 * p->cloud.h)) continue;
         loads++;
@@ -172,7 +171,8 @@ static void doubt_depth (pg_statistics *report, const pg_problem *p)
                         loads > 1 ? " and the other supports" : "");
 }
 
-/* Where a load acts along axis k: its extent along axis q, from low to high, m. 0: nowhere. */
+/* Finds the extent, along axis q, of the points on which a load acts along axis k: low to high, m. Returns 0:
+ * none. */
 static int spans (const pg_problem *p, const pg_load *load, int k, int q, double *low, double *high)
 {
     *low = INFINITY, *high = -INFINITY;
@@ -184,8 +184,8 @@ static int spans (const pg_problem *p, const pg_load *load, int k, int q, double
     return *low <= *high;
 }
 
-/* Does something else act along axis k beside the stretch low to high of axis q, so that the body bends over
- * it? */
+/* 1: another load acts along axis k outside low to high on axis q, so that the body bends over this
+ * stretch. */
 static int bends (const pg_problem *p, size_t load, int k, int q, double low, double high)
 {
     double from, to;
@@ -196,8 +196,8 @@ static int bends (const pg_problem *p, size_t load, int k, int q, double low, do
     return 0;
 }
 
-/* May this load be a clamp by mistake? Not where it is all that holds the body, and so has to keep it from
- * turning. */
+/* 1: this load may be a clamp by mistake; not where it is all that holds the body and has to prevent
+ * rotation. */
 static int may_clamp (const pg_problem *p, size_t load)
 {
     const pg_load *this = &p->boundary.load[load];
@@ -208,11 +208,12 @@ static int may_clamp (const pg_problem *p, size_t load)
     return p->boundary.nplaten > 0;
 }
 
-/* Displacements along k of a short part of the surface, its points more than a spacing apart along q, keep it
- * from turning: a clamp, which bears a moment, where a roller or the edge of a load is mostly meant. */
+/* Warns of clamps: displacements along k of a short part of the surface, with points more than a spacing
+ * apart along q, prevent its rotation and bear a moment, where a roller or the edge of a load is mostly
+ * meant. */
 static void doubt_clamps (pg_statistics *report, const pg_problem *p)
 {
-    static const double narrow = 1.5, most = 0.2;      /* spacings; of the body along q */
+    static const double narrow = 1.5, most = 0.2;      /* spacings; share of the body along q */
     double low, high;
     for (size_t l = 0; l < p->boundary.nload; l++) {
         const pg_load *load = &p->boundary.load[l];
@@ -236,7 +237,8 @@ static void doubt_clamps (pg_statistics *report, const pg_problem *p)
     }
 }
 
-/* Nitsche's method integrates over facets; of the whole body that is meant: its surface. */
+/* Warns of Nitsche's method on inner points, as it integrates over facets; on the whole body its surface is
+ * meant. */
 static void doubt_inner (pg_statistics *report, const pg_problem *p)
 {
     size_t all = pg_cloud_total (&p->cloud);
@@ -254,7 +256,7 @@ static void doubt_inner (pg_statistics *report, const pg_problem *p)
 
 static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
 
-/* What the patch test has found: an error worth a warning, points without strain, parts of the body. */
+/* Warns of what the patch test found: a large error, points without strain, separate parts of the body. */
 static void doubt_patch (pg_statistics *report, const pg_problem *p)
 {
     char words[240], remedy[240], at[100];
@@ -290,11 +292,12 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
     pg_statistics_warn (report, "%s; %s", words, remedy);
 }
 
-/* Cracks that grow bond by bond in shape functions: a bond of a point of evaluation is one entry of its shape
- * functions, no spring, and takes along what the others bear. Measured on strips of known energy release rate
- * (bench/single_bonds galerkin_stretch; doc/method.md A1): 2.7 to 5.2 times the fracture energy is consumed,
- * and 4.1 to 7.9 times must be supplied, whose roots are the factors of the load. With a tensile strength f
- * 3.4 to 3.8 f^2 h / E must be supplied, and -0.6 to 0.04 of it is consumed (galerkin_principal_stress). */
+/* Warns of cracks that grow bond by bond in shape functions: a bond of an evaluation point is one entry of
+ * its shape functions, not a spring, and its loss changes the others. Measured on strips of known energy
+ * release rate (bench/single_bonds galerkin_stretch; doc/method.md A1): 2.7 to 5.2 times the fracture energy
+ * is consumed, and 4.1 to 7.9 times must be supplied, whose roots are the factors of the load. With a tensile
+ * strength f 3.4 to 3.8 f^2 h / E must be supplied, and -0.6 to 0.04 of it is consumed
+ * (galerkin_principal_stress). */
 static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     const pg_criterion *c = p->criterion;
@@ -315,8 +318,8 @@ static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, cons
                             instead ? " grows them at a fracture_energy" : "");
 }
 
-/* A crack that begins in shear is tried in the field of the body as it is: what faces bear elsewhere would
- * change with it, and does not in the trial (shear_initiation.c). */
+/* Warns of cracks that begin in shear where the scene has cracks: a trial uses the field of the body as it
+ * is, in which contact forces on other faces do not change as they would (shear_initiation.c). */
 static void doubt_shear (pg_statistics *report, const pg_problem *p)
 {
     static const double origin[3] = { 0 };
@@ -332,7 +335,8 @@ static void doubt_shear (pg_statistics *report, const pg_problem *p)
     }
 }
 
-/* Facets in motion: branching and contact are known to put their energy out (facet_energy.c). */
+/* Warns of facets in dynamics: branching and contact are known to change the energy that they take
+ * (facet_energy.c). */
 static void doubt_motion (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     int touch = o->contact.kind != PG_CONTACT_NONE;
@@ -344,8 +348,8 @@ static void doubt_motion (pg_statistics *report, const pg_problem *p, const pg_s
                         "times their fracture energy; the run says when and where it leaves .9 to 1.1");
 }
 
-/* Tips without room for a ring, each with what stands in the way, before the first step. Where there is no
- * memory for the state of the start, the run that follows says so. */
+/* Warns of tips without room for a ring, each with what stands in the way, before the first step. If there is
+ * no memory for the initial state, the run itself fails with that. */
 static pg_status doubt_tips (pg_statistics *report, const pg_problem *p)
 {
     enum { MOST = 5 };
@@ -374,7 +378,7 @@ done:
     return status;
 }
 
-/* Can one leave point i in direction e and come back into the body within two spacings? */
+/* 1: from point i in direction e one leaves the body and comes back into it within two spacings. */
 static int crosses_void (const pg_problem *p, size_t i, const double *e)
 {
     enum { STEPS = 16 };
@@ -390,10 +394,9 @@ static int crosses_void (const pg_problem *p, size_t i, const double *e)
     return 0;
 }
 
-/* Points of a file alone have no surface: what lies too far from all of them counts as outside
- * (crack/geometry/body_search.c). Voids between irregular points are then taken for it, and a crack that
- * comes to one
- * ends there. Looks from at most some thousand points, along the axes and the diagonals. */
+/* Warns of voids between irregular points: points of a file have no surface, and what is too far from all of
+ * them counts as outside (crack/geometry/body_search.c), so that a crack ends in such a void. Checks at most
+ * some thousand points, along the axes and the diagonals. */
 static void doubt_voids (pg_statistics *report, const pg_problem *p)
 {
     enum { SAMPLE = 2000 };
@@ -415,7 +418,7 @@ static void doubt_voids (pg_statistics *report, const pg_problem *p)
                             found, looked, p->dim == 3 ? 0.87 : 0.71);
 }
 
-/* All warnings before the first step; notes of the model that are warnings among them. */
+/* Gives all warnings before the first step, including notes of the model that are warnings. */
 void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     doubt_supports (report, p, o);
@@ -439,7 +442,7 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
                             p->part.mesh.element_id[p->part.worst], p->part.quality);
 }
 
-/* Notes of the model first, then what ranks do in another way, then keys of other solvers. */
+/* Notes: those of the model first, then what ranks do differently, then keys of other solvers. */
 int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, char *out, size_t size)
 {
     for (size_t i = 0; i < p->notes.n; i++) {

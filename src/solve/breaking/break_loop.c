@@ -6,9 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Made for the first look at all bonds, so that a run in which nothing can break never has it: room for the
- * utilisation of every bond, the load factor at which each reaches its limit, and the kind of
- * failure: 17 bytes a bond. */
+/* Allocates the utilisation of every bond, the load factor at which it reaches its limit and the kind of
+ * failure, 17 bytes a bond, when bonds are first judged: a run in which nothing can break never has them. */
 pg_status break_loop_ready (break_loop *b)
 {
     pg_status status = PG_OK;
@@ -38,8 +37,7 @@ int break_loop_judges (const break_loop *b)
     return b->system.force->judge && pg_criterion_of_bonds (b->system.problem->criterion);
 }
 
-/* Finds the bond set of a broken bond and its middle, half way between the point that owns it and the node
- * it sees. */
+/* Finds the bond set of a broken bond and its middle, half way between its point and its node. */
 static void locate (const pg_problem *p, pg_broken *out)
 {
     size_t point, dim = (size_t) p->dim;
@@ -59,7 +57,7 @@ int break_loop_owns (const break_loop *b, size_t bond)
     return pg_problem_owns (p, set, point);
 }
 
-/* Appends to the bonds that have died in this step; the caller clears the alive bit. */
+/* Appends to the list of bonds broken in this step; the caller clears the alive bit. */
 pg_status break_loop_log (break_loop *b, size_t bond, char kind, double utilisation, double t)
 {
     pg_status status = PG_OK;
@@ -72,7 +70,7 @@ done:
 }
 
 /* ---- bonds that ranks hold in common ------------------------------------------------------------------- */
-/* Where a number stands in an ascending list; n: nowhere. */
+/* Index of a number in an ascending list; n: it is not there. */
 static size_t place_of (size_t n, const int64_t *list, int64_t number)
 {
     size_t low = 0, high = n;
@@ -84,7 +82,7 @@ static size_t place_of (size_t n, const int64_t *list, int64_t number)
     return low < n && list[low] == number ? low : n;
 }
 
-/* The bond of these numbers of a set, its point and its node; SIZE_MAX: this rank does not hold it. */
+/* The bond that these numbers name: its set, its point, its node; SIZE_MAX: this rank does not hold it. */
 static size_t bond_of (const pg_problem *p, const double *key)
 {
     const pg_subdomain *s = p->cloud.subdomain;
@@ -98,9 +96,9 @@ static size_t bond_of (const pg_problem *p, const double *key)
     return SIZE_MAX;
 }
 
-/* Bonds that their owners have broken in this round die on all ranks that hold them: `changes`, of owned ones
- * so far, gets the others. Every rank asks its own, so that none judges what it does not know to the last
- * bit. */
+/* Bonds broken in this round by the ranks that own them break on all ranks that hold them: `changes`, of
+ * owned bonds so far, gets the others. Each rank judges its own bonds only, as it knows others not to the
+ * last bit. */
 static pg_status share_changes (break_loop *b, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -131,8 +129,8 @@ done:
     return status;
 }
 
-/* One round of breaking. The bonds that die are listed twice: in `changes` for the force, which updates
- * what they touched, and in `broken` for the results. */
+/* One round of breaking. Bonds that break are listed twice: in `changes` for the force, which updates what
+ * they touched, and in `broken` for the results. */
 pg_status break_loop_kill (break_loop *b, pg_state *state, const pg_changes *among, const double *measure,
                            double cut, double scale, double t)
 {
@@ -152,8 +150,8 @@ done:
     return status;
 }
 
-/* The largest of a number of every bond, times `sign`, and at least `least`. Those of ghosts are judged by
- * their owners, who know all that they depend on. */
+/* The largest of a[bond] times `sign` over all bonds, at least `least`. Bonds of ghosts are left to their
+ * owners, who know all that they depend on. */
 static double most_of (const break_loop *b, const double *a, double sign, double least)
 {
     const pg_problem *p = b->system.problem;
@@ -173,8 +171,8 @@ static double most_of (const break_loop *b, const double *a, double sign, double
 double break_loop_largest (const break_loop *b, const double *a) { return most_of (b, a, 1, 0); }
 double break_loop_smallest (const break_loop *b, const double *a) { return -most_of (b, a, -1, -INFINITY); }
 
-/* Counts bonds that live although they are over their limit, a tie counting as at the limit: 0 in every
- * state that the loop accepts. */
+/* Counts intact bonds that are over their limit, a tie counting as at the limit: 0 in every state that the
+ * loop accepts. */
 long break_loop_over (const break_loop *b, const pg_state *state, double scale, double *top)
 {
     long over = 0;
@@ -213,7 +211,7 @@ double break_loop_cut (const break_loop *b, double top)
     return fmax (1, top * (1 - fmax (o->break_fraction, o->tie)));
 }
 
-/* One round of breaking, of the bonds that the last look has found. */
+/* One round of breaking, of the bonds over the limit when all were last judged. */
 static pg_status break_worst (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
                               const pg_step *step, double top)
 {
@@ -231,7 +229,7 @@ done:
     return status;
 }
 
-/* The caller's look between two rounds. */
+/* Calls the caller's function between two rounds. */
 static pg_status show_caller (break_loop *b, const pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -264,7 +262,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         if (judges && step->iterations > (s->choice.mode != SYSTEM_DIAGONAL))
             PG_TRY (break_loop_rough (b, state, t, d, dyn, &top, &rough));
         if (!rough) PG_TRY (system_solve (s, t, d, dyn, &step->residual));
-        /* later rounds: loads and goals stay */
+        /* later rounds: loads and supports do not change */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 0, 1));
         if (b->grower) {
             int again;

@@ -5,8 +5,8 @@
 #include "solve/run/solve.h"
 #include <string.h>
 
-/* Do forces in motion balance? Of equations that weigh the forces of two times, reactions are asked for once
- * more, with what these leave at the end of the step. */
+/* Checks the balance of forces in dynamics. Where the equations weigh the forces of two times, reactions are
+ * found once more, with what these leave unbalanced at the end of the step. */
 static pg_status balance_in_motion (pg_system *s, double t, const double *d, const pg_work_balance *w,
                                     const dynamics *dyn)
 {
@@ -26,9 +26,9 @@ done:
     return status;
 }
 
-/* Asks the force for the work balance of the state (t, d) and adds the work since the last one. With
- * motion the reactions contain inertia and damping, which `dyn` adds, or which are in the residual that the
- * solve has left behind. At rest they contain the forces of contact on nodes that are held; `rest` says that
+/* Asks the force for the work balance of the state (t, d) and adds the work since the last one. In
+ * dynamics reactions contain inertia and damping, which `dyn` adds, or which are in the residual that the
+ * solve has left behind. In statics they contain contact forces on nodes that are held; `rest` says that
  * the state is one of equilibrium, which spares the force its evaluation: not with friction, where half the
  * work of the loads is not what is stored. */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, int rest,
@@ -103,7 +103,8 @@ done:
     return status;
 }
 
-/* A first step that is refused leaves no state that work was accounted for. */
+/* Restores what break_loop_save has saved. If the first step is refused no state has been accounted for
+ * yet. */
 void break_loop_return (break_loop *b)
 {
     size_t bytes = b->start.npair * sizeof *b->start.force;

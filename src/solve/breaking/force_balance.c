@@ -10,7 +10,7 @@
 #include <float.h>
 #include <math.h>
 
-/* In motion every so many steps are measured. */
+/* Dynamics: one in so many steps is measured. */
 enum { EVERY = 16 };
 /* Forces that balance to this share of them, by a direct solver, are in balance. */
 static const double BALANCED = 1e-10;
@@ -18,7 +18,7 @@ static const double BALANCED = 1e-10;
 /* N, N m; size: sum of the sizes of forces; length: diagonal of the body, m. */
 typedef struct { double force[3], moment[3], size, length; } sums;
 
-/* Loads and supports; moments are told about places of their own. */
+/* Adds loads and supports, whose moments are about points of their own. */
 static void add_loads (const pg_problem *p, const pg_work_balance *w, sums *s)
 {
     for (size_t l = 0; l < p->boundary.nload; l++) {
@@ -35,7 +35,7 @@ static void add_loads (const pg_problem *p, const pg_work_balance *w, sums *s)
     for (size_t k = 0; k < w->npair; k++) s->size += fabs (w->force[k]);
 }
 
-/* Inertia, damping and contact, whose forces at nodes act on the coefficients of shape functions that
+/* Adds inertia, damping and contact, whose forces at nodes act on the coefficients of shape functions that
  * reproduce 1 and x. */
 static void add_forces (const pg_system *s, const double *f, sums *out)
 {
@@ -92,7 +92,7 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     if (!(size > 0)) return;
     double missed = fmax (pg_size (3, all.force), pg_size (3, all.moment) / all.length);
     if (missed > BALANCED * size) size = fmax (size, fmax (s->balance.reference, s->balance.borne));
-    /* arms of forces that turn with finite displacements are not those of the places at rest */
+    /* moments are left out where lever arms change with finite displacements */
     pg_statistics *r = s->report;
     r->balance.states++;
     r->balance.force = fmax (r->balance.force, pg_size (3, all.force) / size);

@@ -25,7 +25,7 @@
 #include <string.h>
 
 static const double first_share = 3e-4, least_share = 1e-6, most_share = 1e-3;
-/* By the diagonal, which needs few iterations for a digit more. */
+/* Largest share with the diagonal preconditioner, which needs few iterations for a digit more. */
 static const double most_by_diagonal = 3e-5;
 
 static double largest_share (const pg_system *s)
@@ -33,15 +33,16 @@ static double largest_share (const pg_system *s)
     return s->choice.mode == SYSTEM_DIAGONAL ? most_by_diagonal : most_share;
 }
 
-/* What the iterations go on by where that is not enough, and how often they do. */
+/* Factor by which the residual is reduced further where a solution leaves doubt, and how often it is
+ * tried. */
 static const double further = 0.03;
 enum { MOST_TRIES = 3 };
 /* Bonds from this utilisation on are compared. */
 static const double near = 0.9;
 
-/* Judges by both iterates, by the earlier one only what is near the limit: `over` and `utilisation` are of
- * the one at hand, rough.earlier_u of the bonds of `over` in their order. *can 0: the force judges no
- * groups. */
+/* Judges bonds by both iterates, by the earlier one those near the limit only: `over` and `utilisation` are
+ * of the last iterate, rough.earlier_u of the earlier one, for the bonds of `over` in their order. *can 0:
+ * the force cannot judge groups of bonds. */
 static pg_status judge_both (break_loop *b, const pg_state *state, const double *d, double *top, int *can)
 {
     pg_status status = PG_OK;
@@ -98,7 +99,7 @@ done:
     return status;
 }
 
-/* May equilibria be solved inexactly? Sets the first share of the residual of a run. */
+/* May equilibria be solved inexactly? Sets the share to which the first residual is reduced. */
 static int may_be_rough (pg_system *s)
 {
     if (system_is_shared (s) || !s->force->spares.gather || s->options->plain
@@ -108,7 +109,7 @@ static int may_be_rough (pg_system *s)
     return 1;
 }
 
-/* What a round teaches of the share. */
+/* Adapts the share after a round: doubled where the first try sufficed (at most `most`), else halved. */
 static void learn (pg_rough *rough, double most, int done, int tries)
 {
     rough->share = done && tries == 1 ? fmin (most, 2 * rough->share)
@@ -118,11 +119,11 @@ static void learn (pg_rough *rough, double most, int done, int tries)
 }
 
 /* ---- with finite elements ------------------------------------------------------------------------------ */
-/* No iterate is kept that has not fallen to this share of the one kept before. */
+/* An iterate is kept if its residual has fallen to this share of that of the one kept before. */
 static const double apart = 0.7;
 
-/* A round whose iterations are watched: from displacement d. can 0: the force judges no groups. candidates:
- * bonds that were near their limit when all were looked at last; list: their number in the round. */
+/* A round whose iterations are watched, from displacement d. can 0: the force cannot judge groups of bonds.
+ * candidates: bonds near their limit when all were last judged; list: number of this list in the round. */
 typedef struct {
     break_loop *b;
     const pg_state *state;
@@ -131,10 +132,10 @@ typedef struct {
     double   top;
     pg_bond_group candidates;
     long     list, looks;
-    double  *at;                                       /* a displacement (ndof) */
+    double  *at;                                       /* displacement of an iterate (ndof) */
 } looking;
 
-/* Bonds that the last look at all has found are the candidates from here on. */
+/* Makes the bonds near their limit, as all bonds were last judged, the candidates from here on. */
 static pg_status choose_candidates (looking *w)
 {
     pg_status status = PG_OK;
@@ -149,7 +150,7 @@ done:
     return status;
 }
 
-/* Utilisation of the candidates by an iterate. */
+/* Finds the utilisation of the candidates by an iterate. */
 static pg_status judge_view (looking *w, pg_rough_view *v)
 {
     pg_status status = PG_OK;
@@ -164,7 +165,7 @@ done:
     return status;
 }
 
-/* Do the candidates leave no doubt, or lie below their limit as a whole? */
+/* 1: the two iterates leave no doubt which candidates break, or all of these are below their limit. */
 static int candidates_decide (const looking *w, const pg_rough_view *now, const pg_rough_view *before)
 {
     double top = 0;
@@ -173,7 +174,8 @@ static int candidates_decide (const looking *w, const pg_rough_view *now, const 
     return top < 1 || decides (n, now->u, before->u, top, break_loop_cut (w->b, top));
 }
 
-/* All bonds by an iterate, and those near their limit by the earlier one. */
+/* Judges all bonds by an iterate, and those near their limit by the earlier one; *stop 1: the solve may
+ * end. */
 static pg_status look_at_all (looking *w, const pg_rough_view *now, const pg_rough_view *before, int *stop)
 {
     pg_status status = PG_OK;
@@ -194,7 +196,7 @@ done:
     return status;
 }
 
-/* Keeps the iterate at hand. */
+/* Stores the present iterate of the solve. */
 static pg_status keep_view (pg_system *s, double residual, pg_rough_view **out)
 {
     pg_status status = PG_OK;
@@ -209,7 +211,7 @@ done:
     return status;
 }
 
-/* The last iterate kept whose residual was ROUGHER times as large; NULL: there is none. */
+/* The last stored iterate whose residual was at least ROUGHER times as large; NULL: there is none. */
 static pg_rough_view *earlier_view (pg_rough *r, double residual)
 {
     for (long k = r->nview - 2; k >= 0 && k > r->nview - 1 - ROUGH_VIEWS; k--) {
@@ -219,7 +221,7 @@ static pg_rough_view *earlier_view (pg_rough *r, double residual)
     return NULL;
 }
 
-/* After an iteration. */
+/* Called after an iteration, residual over the first one; *stop 1: the solve may end. */
 static pg_status look_at_iterate (void *context, double residual, int *stop)
 {
     pg_status status = PG_OK;
@@ -239,7 +241,7 @@ done:
     return status;
 }
 
-/* A round whose iterations end when the bonds leave no doubt. */
+/* A round whose iterations end when there is no doubt any more which bonds break. */
 static pg_status watched_round (break_loop *b, const pg_state *state, double t, double *d,
                                 const dynamics *dyn, double *top, int *done)
 {
@@ -251,10 +253,10 @@ static pg_status watched_round (break_loop *b, const pg_state *state, double t, 
     PG_ALLOC (w.at, s->ndof);
     PG_TRY (choose_candidates (&w));
     if (!w.can) {
-        r->share = -1;                                 /* never */
+        r->share = -1;                                 /* no inexact rounds from now on */
         goto done;
     }
-    w.d = d;                                           /* which goes on after the iterations only */
+    w.d = d;                                           /* it changes after the iterations only */
     r->look = look_at_iterate, r->looking = &w;
     status = system_solve_roughly (s, t, d, dyn, least_share, &fit);
     r->look = NULL, r->looking = NULL;
@@ -285,7 +287,7 @@ pg_status break_loop_rough (break_loop *b, const pg_state *state, double t, doub
         if (!(*top > 1) || !can) break;
         PG_TRY (decides_all (b, *top, done));
     }
-    if (!can) rough->share = -1;                       /* never again */
+    if (!can) rough->share = -1;                       /* no inexact rounds from now on */
     else if (tries > 0 && *top > 1) learn (rough, largest_share (s), *done, tries);
 done:
     return status;

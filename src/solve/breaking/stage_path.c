@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Stages of loading in a static run (problem->stage): which one the run is in, when it ends, what was then.
+ * Stages of loading in a static run (problem->stage): the present one, when it ends, what was then.
  * Stage k is the stretch k - 1 <= t <= k of the run's t, along which loads are straight lines
  * (mechanics/model/stages.c), so that steps and events within it are those of any run. A stage ends at t
  * = k, or
@@ -7,7 +7,7 @@
  * are therefore the solver's own copy.
  *
  * Conditions are asked of states that bear their loads: after a fixed step, or where the next event would
- * begin or a level is reached; not while growth goes on at a held load, and not in motion. */
+ * begin or a level is reached; not while growth goes on at a held load, and not in dynamics. */
 #include "solve/run/solve.h"
 #include <math.h>
 #include <string.h>
@@ -102,9 +102,10 @@ static void forget_removed (pg_solver *s)
     p->excavated = p->excavated_now = NULL;
 }
 
-/* Of what is removed the rest of the body bears f = - (P - F) at the displacement at hand, so that nothing
- * moves as its bonds go: the forces on the new surface (and inside, what the shape functions have changed).
- * Along the stage they fall to zero, as behind the face of a tunnel that comes nearer and leaves. */
+/* The rest of the body gets the forces f = - (P - F) that the removed part exerted at the present
+ * displacement, so that nothing moves as its bonds are cut: forces on the new surface (and inside, what
+ * the shape functions have changed). Along the stage they fall to zero, as behind the advancing face of a
+ * tunnel. */
 pg_status stage_remove (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -134,8 +135,8 @@ void stage_bear (pg_solver *s, double t)
         p->excavated_now[i] = left * p->excavated[i];
 }
 
-/* What a step goes back to where it is refused: the stage in which it began, which is the one at hand or the
- * one before. */
+/* Saves what a refused step returns to: the stage in which it began, which is the present one or the one
+ * before. */
 void stage_save (pg_solver *s)
 {
     stage_path *p = &s->stage;
@@ -160,8 +161,8 @@ double stage_growth (const pg_state *state)
     return state->paths ? state->paths->length : state->surfaces ? state->surfaces->area : 0;
 }
 
-/* The change of distance of its two places, along the line between them, m. Each is measured by the rank next
- * to it. */
+/* Opening of a gauge: change of distance of its two ends, along the line between them, m. Each end is
+ * measured by the rank next to it. */
 static pg_status opening_of (pg_solver *s, const pg_state *state, size_t gauge, const double *d, double *out)
 {
     pg_status status = PG_OK;
@@ -185,14 +186,14 @@ static const pg_stage *stage_of (const pg_solver *s)
     return s->stage.now.number ? &s->problem->boundary.stage[s->stage.now.number - 1] : NULL;
 }
 
-/* The side from which the gauge comes is that of the state at the start of the stage. */
+/* 1: the opening has reached its limit, coming from the side on which it was at the start of the stage. */
 static int has_arrived (stage_path *p, double opening, double limit)
 {
     if (p->now.side == 0) p->now.side = opening <= limit ? 1 : -1;
     return p->now.side * (opening - limit) >= 0;
 }
 
-/* Between events openings are straight lines of t, which is where the crossing comes from in closed form. */
+/* Between events openings are linear in t, so that the crossing is found in closed form. */
 pg_status stage_cross (pg_solver *s, const pg_state *state, const double *base, const double *unit,
                        double now, double *factor, int *crosses)
 {
@@ -214,7 +215,8 @@ done:
     return status;
 }
 
-/* The force of the load of the condition, N, on all ranks; its largest in this stage so far is kept. */
+/* 1: the force of the load that until names, N, summed over ranks, has dropped by the given share of its
+ * maximum in this stage, which is kept in `peak`. */
 static int has_fallen (pg_solver *s, const pg_stage *stage, const double *reaction)
 {
     stage_path *p = &s->stage;
@@ -326,7 +328,7 @@ done:
     return status;
 }
 
-/* All of it is known alike to whoever had a part of the body. */
+/* Stages are equal on all ranks of the earlier run, and read as such. */
 pg_status stages_moved (pg_solver *s, const pg_moved *m, int within)
 {
     pg_status status = PG_OK;

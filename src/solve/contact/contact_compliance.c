@@ -5,12 +5,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Rounds of refinement; so many columns are worth a factor. */
+/* Most rounds of refinement; number of columns from which on a factor is made. */
 enum { MOST_ROUNDS = 4, MANY = 4 };
-/* Relative: of columns by iterations, where there is no factor, and by a factor. */
+/* Relative accuracy of columns: by iterations (2D; 3D), where there is no factor; by a factor. */
 static const double COLUMN = 1e-10, COLUMN_SPACE = 1e-7, REFINED = 1e-12;
 
-/* Column j of G' in the unknowns that are solved for. */
+/* full, reduced = column j of G' in all unknowns and in those that are solved for. */
 static void load_column (const pg_system *s, size_t j, double *full, double *reduced)
 {
     const pg_sparse *G = &s->contact->G;
@@ -19,8 +19,8 @@ static void load_column (const pg_system *s, size_t j, double *full, double *red
     system_reduce (s, full, reduced);
 }
 
-/* What K z leaves of the columns of G', over the larger of both: springs of weak unknowns in the factor show
- * there. rest: nred x n. NAN: a column is not finite. */
+/* rest = columns of G' - K z (nred x n); returns its largest norm over that of the column or K z: springs on
+ * weak unknowns of the factor show in it. NAN: a column is not finite. */
 static double rest_of_columns (pg_system *s, const double *rhs, const double *solved, size_t n, double *rest)
 {
     double worst = 0;
@@ -40,8 +40,8 @@ static double rest_of_columns (pg_system *s, const double *rhs, const double *so
     return finite ? worst : NAN;
 }
 
-/* Refinement of all columns by the factor at hand, as long as it gains: lines of stretches are sums of
- * them; single states are mended as a whole. */
+/* Refines all columns by the factor at hand, as long as it gains, for linear stretches of a load path, which
+ * are sums of columns; single states are refined as a whole. */
 static pg_status refine_columns (pg_system *s, const double *rhs, double *solved, size_t n)
 {
     pg_status status = PG_OK;
@@ -70,7 +70,7 @@ done:
     return status;
 }
 
-/* In space slips without friction bear no force: their columns would be multiplied by zero. */
+/* 3D: slips of pieces without friction and cohesion bear no force, and their columns are not needed. */
 static int needs_column (const struct system_contact *c, size_t j)
 {
     size_t dim = c->pieces.dim, k = j / dim;
@@ -85,8 +85,8 @@ double contact_columns (const pg_system *s)
     return (double) count;
 }
 
-/* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. What iterations in space
- * leave of a column is found by the rounds that follow, which are fewer than columns. */
+/* Finds Z = K^-1 G', all columns at once by the factor at hand, else one after the other. In 3D iterations
+ * are less accurate: the rounds that follow correct the rest, and are fewer than columns. */
 static pg_status solve_columns (pg_system *s, const dynamics *dyn)
 {
     system_balance *b = &s->balance;
@@ -103,15 +103,16 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
         memcpy (kept, b->residual, s->ndof * sizeof *kept);
     }
     for (size_t j = 0; j < n; j++) load_column (s, j, b->full, rhs + j * s->nred);
-    /* so many columns are worth a factor of this K where an older one would only precondition; else the first
-     * solve makes the factor if there is to be one */
+    /* many columns are worth a factor of the present K where an older one would only precondition; else the
+     * first solve makes the factor if there is to be one */
     if (s->choice.mode == SYSTEM_KEPT_FACTOR && f->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
-    /* not counted among the solves, of which every so many are measured: a resumed run has these again */
+    /* these solves are not counted, as some solves are measured by their number and a resumed run makes the
+     * columns again */
     long solves = s->report->linear.solves;
     size_t first = 0;
     for (; first < n && !system_has_factor (s); first++) {
         if (!needs_column (c, first)) continue;
-        /* iterations over all unknowns begin at the full residual */
+        /* iterations over all unknowns start from the full residual */
         load_column (s, first, b->residual, b->reduced);
         b->known = b->carried = 0;
         memcpy (b->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
@@ -125,7 +126,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     long columns = s->report->contact.columns;
     s->report->contact.columns += (long) n;
     PG_TRY (refine_columns (s, rhs, solved, n));
-    /* nor are these columns among those of the run, when a resumed one has them again */
+    /* nor are columns counted that a resumed run makes again */
     if (c->compliance.again == f->revision + 1) s->report->contact.columns = columns;
     c->compliance.again = 0;
     for (size_t j = 0; j < n; j++)
@@ -145,7 +146,7 @@ pg_status contact_factor (pg_system *s)
            : PG_OK;
 }
 
-/* C = G Z, symmetric but for rounding, which is taken out. */
+/* C = G Z, made symmetric, which it is but for rounding. */
 pg_status contact_condense (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -163,10 +164,10 @@ pg_status contact_condense (pg_system *s, const dynamics *dyn)
             double sum = (other ? c->compliance.C[j * n + i] : 0) + (one ? c->compliance.C[i * n + j] : 0);
             c->compliance.C[j * n + i] = c->compliance.C[i * n + j] = one && other ? 0.5 * sum : sum;
         }
-    for (size_t j = 0; j < n; j++)                     /* not asked for, but positive */
+    for (size_t j = 0; j < n; j++)                     /* columns not needed get a positive diagonal */
         if (!needs_column (c, j)) c->compliance.C[j * n + j] = c->compliance.C[(j / 3 * 3) * (n + 1)];
     for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->compliance.C[i * n + i] += c->soft[i];
-    /* empty columns bear nothing, whatever their compliance */
+    /* empty columns bear no force, whatever their compliance */
     double most = 0;
     for (size_t j = 0; j < n; j++) most = fmax (most, c->compliance.C[j * n + j]);
     for (size_t j = 0; j < n; j++) if (!(c->compliance.C[j * n + j] > 0)) c->compliance.C[j * n + j] = most;

@@ -1,44 +1,46 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Contact where something moves freely: platens under a force or free to tilt, and parts of the body that
- * supports do not hold. Their amounts y stand in the gaps, g = g0 + C f + B y, and each has an equation of
- * balance, Q + B' f = 0: Q is the force on the platen (a free tilt: 0), or what the loads of a part do along
- * its rigid motion. The method of multipliers finds them: springs of compliance S, much softer than the body,
- * pull each motion to where it was last,
+ * Contact with free rigid motions: of platens under a force or free to tilt, and of parts of the body that
+ * supports do not hold. The amounts y of the motions enter the gaps, g = g0 + C f + B y, and each has an
+ * equation of balance, Q + B' f = 0: Q is the force on the platen (of a free tilt: 0), or the work of the
+ * loads of a part along its rigid motion. The method of multipliers finds them: springs of compliance S, much
+ * softer than the body, pull each motion to its last value,
  *
  *     y = y_old + S (Q + B' f),    g = g0 + B (y_old + S Q) + (C + B S B') f,
  *
- * which is a problem of contact of the usual kind, and leave no trace once y no longer changes (Rockafellar
- * 1976). Each round takes the springs' share of the balance off, a hundredth of it and less. */
+ * which is a problem of contact of the usual kind, and have no effect once y no longer changes (Rockafellar
+ * 1976). Each round removes the springs' share of the balance, a hundredth of it and less. */
 #include "contact.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Springs are so much softer than a piece of the surface. */
+/* Compliance of a spring over that of a piece of the surface. */
 static const double SOFT = 1000;
-/* A round that leaves more than this share of what was unbalanced is slow: its springs get so much softer. */
+/* A round that leaves more than this share of the imbalance is slow: its springs get softer by SOFTER. */
 static const double SLOW = 0.3, SOFTER = 8;
-/* Balance of a motion over the largest force that is reached; that is accepted where rounding ends. */
+/* Imbalance of a motion over its largest force: aimed at; accepted where rounding ends the rounds. */
 static const double BALANCED = 1e-13, ACCEPTED = 1e-9;
 enum { MOST_ROUNDS = 80 };
-/* Motions count as free where closed pairs resist them by less than this share of the stiffest one. */
+/* Motions count as free where closed pairs resist them by less than this share of the largest resistance. */
 static const double RESISTED = 1e-12;
-/* Sums of terms that cancel to this share are rounding. */
+/* Sums whose terms cancel to this share are rounding. */
 static const double ROUNDED = 1e-12;
-/* Forces below this share of what the body bears, or of what would undo the overlap, are rounding. */
+/* Forces below this share of the forces in the body, or of those that would undo the overlap, are
+ * rounding. */
 static const double NOISE = 1e-15;
 
-/* A free motion: of a platen along an axis (3..5: about it), or of a part. */
+/* A free motion: of a platen along an axis (3..5: about it), or of a part (its mode of contact_loose; else
+ * SIZE_MAX). */
 typedef struct { size_t platen; int axis; size_t mode; } motion;
 
-/* Its gaps per unit are columns of B, dim n x m, lengths per length. */
+/* The m free motions with the gaps of n pieces; columns of B (dim n x m): gaps per unit of a motion. */
 typedef struct {
     pg_system *s;
     struct system_contact *c;
     size_t  m, rows;
     double  size;                                      /* of the body, m: radius of arcs of rotations */
-    double  noise;                                     /* forces that are none, N */
+    double  noise;                                     /* size of forces that are rounding, N */
     motion *motion;
     double *B, *Q, *S, *y, *C, *gap;
 } problem_of_motions;
@@ -52,12 +54,12 @@ static double size_of_body (const pg_problem *p)
     return sqrt (sum);
 }
 
-/* 1: the platen turns freely about that axis, and its gaps tell. */
+/* 1: the platen can tilt about that axis, and this changes its gaps. */
 static int turns (const pg_problem *p, const pg_platen *w, int axis)
 {
     if (!w->tilts) return 0;
     if (p->dim == 2) return axis == 2;
-    /* about its own normal or axis a surface of revolution does not change */
+    /* rotation about its own normal or axis does not change a surface of revolution */
     return w->shape != PG_PLATEN_PLANE || fabs (w->normal[axis]) < 1 - 1e-12;
 }
 
@@ -86,8 +88,8 @@ static void column_of_platen (problem_of_motions *w, size_t j)
     }
 }
 
-/* What a motion of a part does to the gaps. A part that moves as a whole, crack and all, does nothing to
- * them: rounding is no resistance. */
+/* row = change of the gaps by a rigid motion of a part; 0 where it is rounding, as of a part that moves with
+ * its crack as a whole. */
 static void row_of_part (const problem_of_motions *w, const double *mode, double *row)
 {
     const pg_sparse *G = &w->c->G;
@@ -125,7 +127,7 @@ done:
     return status;
 }
 
-/* What loads do along each motion at t. */
+/* Q = work of the loads at t along each motion. */
 static pg_status find_loads (problem_of_motions *w, double t, double *Q)
 {
     pg_status status = PG_OK;
@@ -173,7 +175,7 @@ static pg_status refuse (const problem_of_motions *w, size_t j, double left)
 }
 
 /* ---- the rounds ---------------------------------------------------------------------------------------- */
-/* Springs by the compliance of the pieces that a motion reaches. */
+/* Sets the springs by the compliance of the pieces whose gaps a motion changes. */
 static void find_springs (problem_of_motions *w)
 {
     size_t n = w->rows;
@@ -186,7 +188,7 @@ static void find_springs (problem_of_motions *w)
     }
 }
 
-/* C with the springs. */
+/* w->C = C + B S B', the compliance with springs. */
 static void soften (problem_of_motions *w)
 {
     size_t n = w->rows;
@@ -198,8 +200,8 @@ static void soften (problem_of_motions *w)
     }
 }
 
-/* A motion whose balance hardly gains, as the pieces that are closed resist it little (a seat that tilts on a
- * few of them), gets a softer spring. 1: some did. */
+/* Softens the springs of motions whose balance hardly improves, as closed pieces resist them little (a block
+ * that tilts on a few pieces). Returns 1 if there were some. */
 static int soften_slow (problem_of_motions *w, const double *left, const double *last, double small)
 {
     int any = 0;
@@ -208,7 +210,8 @@ static int soften_slow (problem_of_motions *w, const double *left, const double 
     return any;
 }
 
-/* Unbalanced force of each motion at the forces at hand; the largest, and the largest force there is. */
+/* left = unbalanced force of each motion at the contact forces f; finds the largest, its motion, and the
+ * largest force. */
 static void find_balance (const problem_of_motions *w, const double *f, double *left, double *worst,
                           size_t *which, double *size)
 {
@@ -222,7 +225,7 @@ static void find_balance (const problem_of_motions *w, const double *f, double *
     }
 }
 
-/* A motion that no row resists has to be in balance by itself. */
+/* A motion that no row resists and that is not in balance by itself; SIZE_MAX: none. */
 static size_t without_rows (const problem_of_motions *w, double size)
 {
     for (size_t j = 0; j < w->m; j++)
@@ -230,7 +233,7 @@ static size_t without_rows (const problem_of_motions *w, double size)
     return SIZE_MAX;
 }
 
-/* One that has gone further than the body is large, and is not in balance; SIZE_MAX: none. */
+/* A motion of more than the size of the body that is not in balance; SIZE_MAX: none. */
 static size_t runs_away (const problem_of_motions *w, const double *left, double size)
 {
     for (size_t j = 0; j < w->m; j++)
@@ -238,9 +241,9 @@ static size_t runs_away (const problem_of_motions *w, const double *left, double
     return SIZE_MAX;
 }
 
-/* Where a part only follows a platen, or bears nothing, forces of contact are rounding, and their own size is
- * no measure: the loads and reactions of the body are, and what it would take to undo the overlap of pieces.
- * */
+/* Finds the size of forces that are rounding. Where a part only follows a platen, or bears nothing, contact
+ * forces are rounding, and their own size is no measure: loads and reactions of the body are, and the forces
+ * that would undo the overlap of pieces. */
 static void find_noise (problem_of_motions *w, const double *open)
 {
     double most = fmax (w->s->balance.reference, w->s->balance.borne);
@@ -253,7 +256,7 @@ static void find_noise (problem_of_motions *w, const double *open)
     w->noise = w->c->loose.noise = NOISE * most;
 }
 
-/* The problem of contact with the springs where they stand. */
+/* Solves the problem of contact with the springs at their present positions. */
 static pg_status press_springs (problem_of_motions *w, pg_contact_solution *out, const double *open)
 {
     const struct system_contact *c = w->c;
@@ -299,8 +302,8 @@ done:
 }
 
 /* ---- motions that nothing resists ---------------------------------------------------------------------- */
-/* Rows of closed pairs, and of their friction, resist the combinations of motions that change them: the sum
- * of their squares, m x m. */
+/* N += products of the gap changes by each two motions, over closed pairs with their friction (m x m): what
+ * resists combinations of motions. */
 static void find_resistance (const problem_of_motions *w, const pg_contact_solution *out, double *N)
 {
     size_t dim = w->c->pieces.dim;
@@ -314,7 +317,7 @@ static void find_resistance (const problem_of_motions *w, const pg_contact_solut
     }
 }
 
-/* Displacement of a combination of motions, as far as it moves parts of the body. */
+/* u = displacement by a combination z of motions, of those of parts of the body. */
 static void displacement_of (const problem_of_motions *w, const double *z, size_t stride, double *u)
 {
     size_t n = w->s->ndof;
@@ -326,7 +329,7 @@ static void displacement_of (const problem_of_motions *w, const double *z, size_
     }
 }
 
-/* How far of the way by along z no open pair closes, at most 1; gaps at hand in `gap`. */
+/* Share (at most 1) of the amount `by` along z at which no open pair closes; present gaps in out->gap. */
 static double room_for (const problem_of_motions *w, const pg_contact_solution *out, const double *z,
                         size_t stride, double by)
 {
@@ -341,7 +344,7 @@ static double room_for (const problem_of_motions *w, const pg_contact_solution *
     return share;
 }
 
-/* Goes along the combination z until the mean of `moved` along it is zero; returns how far. u: scratch. */
+/* Moves along the combination z until the mean of `moved` along it is zero; returns how far. u: workspace. */
 static double centre_along (problem_of_motions *w, const pg_contact_solution *out, const double *z, double *u,
                             double *moved)
 {
@@ -356,9 +359,8 @@ static double centre_along (problem_of_motions *w, const pg_contact_solution *ou
     return fabs (by);
 }
 
-/* What nothing resists is not determined: of all places where a part could be that is taken which leaves the
- * mean of its displacement along such a motion zero, or comes nearest to it without closing what is open. So
- * the answer depends on no point of the part. */
+/* Determines motions that nothing resists: the mean displacement along each becomes zero, or as near to zero
+ * as is possible without closing open pairs. So the answer depends on no single point of the part. */
 static pg_status centre (problem_of_motions *w, const pg_contact_solution *out, const double *d)
 {
     pg_status status = PG_OK;
@@ -381,7 +383,7 @@ static pg_status centre (problem_of_motions *w, const pg_contact_solution *out, 
     w->c->loose.unresisted = 0;
     for (size_t a = 0; a < w->m; a++)
         w->c->loose.unresisted += !(value[a] > RESISTED * value[0] && value[0] > 0);
-    /* motions are not at right angles to each other: again and again */
+    /* motions are not orthogonal to each other: repeat */
     double most = 1, first = 0;
     for (int pass = 0; pass < MOST_ROUNDS && most > BALANCED * first; pass++) {
         most = 0;
@@ -398,7 +400,7 @@ done:
 }
 
 /* ---- pressing ------------------------------------------------------------------------------------------ */
-/* Amounts of now, as y: those that the gaps at hand contain. */
+/* The amount of motion j that the present gaps contain. */
 static double *amount_of (problem_of_motions *w, size_t j)
 {
     const motion *q = &w->motion[j];

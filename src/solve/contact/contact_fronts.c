@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What faces do to each other behind the vertices of fronts in space: means over the pieces behind, as behind
- * the tips of the plane, in a window that rises and falls smoothly. The last one and a half spacings carry
- * too little, as the front of a discretisation is not sharp. */
+ * Stresses between crack faces behind the vertices of fronts (3D): means over the pieces behind, as behind
+ * tips in 2D, in a window that rises and falls smoothly. The last one and a half spacings carry too little,
+ * as the front of a discretisation is not sharp. */
 #include "contact.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
-/* The window, spacings: behind the vertex, aside along the front, off the plane of the crack there; pieces
- * whose normal leans away by more than this cosine are others. */
+/* Window in spacings: from NEXT to LAST behind the vertex, ASIDE along the front, OFF the plane of the crack
+ * there; pieces whose normals make a larger angle (cosine below LEANS) are left out. */
 static const double NEXT = 1, LAST = 8, ASIDE = 3, OFF = 1, LEANS = 0.87;
 
-/* Force of piece k over its area counts in both fields: all of it in one alone, else what it is at the start
- * of the loads that grow, and what these make of it. */
+/* Adds the force of piece k, times weight, to the stresses of each field: one field: all of it; two: its
+ * value at the start of the growing loads, and its rate with these. */
 static void add_force (const struct system_contact *c, size_t k, int nfield, double weight, double side,
                        pg_front_faces *out)
 {
@@ -28,7 +28,7 @@ static void add_force (const struct system_contact *c, size_t k, int nfield, dou
     }
 }
 
-/* One vertex at x, e ahead, n normal. */
+/* Finds the stresses at one vertex at x; e: direction ahead, n: normal. */
 static void at_vertex (const struct system_contact *c, double h, const double *x, const double *e,
                        const double *n, int nfield, double scale, pg_front_faces *out)
 {
@@ -63,7 +63,8 @@ void contact_at_front (const pg_system *s, const pg_front *front, int nfield, do
                    front->ahead + 3*i, front->normal + 3*i, nfield, scale, &out[i]);
 }
 
-/* Under event stepping and proportional loads forces are those of load factor 1. */
+/* Contact at a front of the state. In event stepping under proportional loads forces are those of load factor
+ * 1, and are scaled. */
 int pg_solver_front_faces (const pg_solver *s, const pg_state *state, size_t front, pg_front_faces *out)
 {
     size_t n;

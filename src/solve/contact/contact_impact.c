@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Contact in time steps: pairs whose faces have met within a step, and the impulses that give back what they
+ * Contact in time steps: pairs whose faces have met within a step, and the impulses that give back the energy
  * lost by it (newmark_start.c newmark_rebound).
  *
  * Cracks grow at the end of a step, when its forces have done their work, and their faces are then divided
- * into other pieces. Means that were zero are not zero over these, and faces that have just been parted may
- * overlap by what the field varies between their points. To part them at once would be an impulse that adds
- * energy, so a new piece closes where it stands: its gap counts from its overlap, until it has come further
- * apart, and its slip from the slip there is. Nothing jumps, and no work is done. */
+ * into other pieces. Mean gaps that were zero are not zero over these, and faces that have just been parted
+ * may overlap by the variation of the field between their points. To separate them at once would take an
+ * impulse that adds energy; so a new piece closes where it is: its gap counts from its overlap, until the
+ * faces have moved further apart, and its slip from the present slip. Nothing jumps, and no work is done. */
 #include "contact.h"
 #include <math.h>
 
-/* Gaps, over the largest that forces of the step have closed. */
+/* Gaps above this share of the largest gap closed by forces of the step are open. */
 static const double APART = 1e-9;
 
 pg_status contact_impacts (const pg_system *s, const double *d, double *nodal, double *work)
@@ -23,7 +23,7 @@ pg_status contact_impacts (const pg_system *s, const double *d, double *nodal, d
     PG_ALLOC (gap, dim * n);
     PG_ALLOC (force, dim * n);
     pg_sparse_multiply_transposed (&c->G, d, gap);
-    /* faces that stay together are apart by rounding */
+    /* faces that stay together have gaps of the size of rounding */
     for (size_t i = 0; i < dim * n; i += dim)
         moved = fmax (moved, c->compliance.C[i * dim * n + i] * c->force[i]);
     for (size_t k = 0; k < n; k++) {
@@ -49,7 +49,8 @@ void contact_accelerate (const pg_system *s, double *a)
     for (size_t i = 0; force && i < s->ndof; i++) a[i] += force[i] / (s->contact->weight * s->mass[i]);
 }
 
-/* Means of the displacement d of the state over the pieces of now: the memory takes them over. */
+/* Makes the pieces of the present cracks, and their memory from the means of the displacement d of the state
+ * over them. */
 pg_status contact_renew (pg_system *s, const pg_state *state)
 {
     pg_status status = PG_OK;

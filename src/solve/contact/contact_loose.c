@@ -9,11 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-/* More parts than this are rubble, and no matter of a dense system. */
+/* A body with more free motions is rubble, too large for a dense system. */
 enum { MOST_MODES = 120 };
 
-/* Adds `count` motions of a part, and an unknown for each that tells them apart: the largest entry of what is
- * left of its column once those of the others are eliminated. */
+/* Adds the free motions of a part, and for each an unknown that identifies it: the largest entry of its
+ * column after elimination of the others. */
 static pg_status add_motions (const pg_system *s, const body_parts *parts, contact_loose *l, size_t number)
 {
     pg_status status = PG_OK;

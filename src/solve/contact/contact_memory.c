@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What crack faces bore and how far they had slipped, for the work of friction and for slips that go on from
- * those before. Friction takes - sum f_t dg_t, by trapezoids between booked states as the work of loads; with
- * f_t of the total form and proportional loads that is exact. After a crack has grown there are other pieces:
- * each takes the values of those that lay where its points are now. New faces begin without slip, and bear
- * from the beginning what they bear when they are booked first: what a facet that slides takes while it comes
- * into being is the energy of its material and the work of the friction that is left. */
+ * Forces and slips of crack faces in earlier states, for the work of friction and for slips that go on.
+ * Friction takes - sum f_t dg_t, by trapezoids between booked states like the work of loads; with f_t of the
+ * total form and proportional loads that is exact. After a crack has grown there are other pieces: each takes
+ * the values of those at the positions of its points. New faces begin without slip, with the forces that they
+ * have when first booked: what a facet that slides takes while it forms is the energy of its material and the
+ * work of the remaining friction. */
 #include "contact.h"
 #include <math.h>
 #include <string.h>
 
-/* Half the diagonal of a square of length 1: pieces in space reach so far. Cosine between normals of faces
- * that may be one: those of a crack that crosses or leaves another are not. */
+/* Half the diagonal of a unit square: reach of a piece in 3D. Least cosine between normals of faces of the
+ * same crack: those of one that crosses or branches off are not. */
 static const double SQUARE = 0.70710678118654752, LEANS = 0.8;
 
 void contact_vector (const pg_contact_pieces *pieces, size_t k, const double *along, double scale,
@@ -31,8 +31,8 @@ static void part_along (const pg_contact_pieces *pieces, size_t k, const double 
         out[a] = vector[0] * p->tangent[a][0] + vector[1] * p->tangent[a][1] + vector[2] * p->tangent[a][2];
 }
 
-/* Piece of the memory on which point q of the pieces lies, of the same platen or a crack of about the same
- * direction; SIZE_MAX: none. In space pieces are about as wide as long. */
+/* Piece of the memory that contains point q of the present pieces, of the same platen or a crack of about the
+ * same direction; SIZE_MAX: none. In 3D pieces are about as wide as long. */
 static size_t piece_at (const contact_memory *m, const pg_contact_pieces *now, size_t platen, size_t q)
 {
     size_t found = SIZE_MAX, dim = now->dim;
@@ -51,7 +51,8 @@ static size_t piece_at (const contact_memory *m, const pg_contact_pieces *now, s
     return found;
 }
 
-/* Vectors in space are those of the side that the normal shows to, which may be the other one now: -1. */
+/* Sign of remembered vectors (3D), which are those of the side that the normal points to: -1 if that is the
+ * other side now. */
 static double sense_of (const double *old, const double *now, size_t dim)
 {
     return dim == 3 && old[0] * now[0] + old[1] * now[1] + old[2] * now[2] < 0 ? -1 : 1;
@@ -90,8 +91,8 @@ done:
     return status;
 }
 
-/* In a time step the mean force of the step does work on the slips from its begin to its end, exactly; rounds
- * of breaking find both anew. */
+/* Books friction in a time step: the mean force of the step does work on the change of slips over the step,
+ * exactly; rounds of breaking find both again. */
 static void book_step (struct system_contact *c)
 {
     size_t dim = c->pieces.dim;
@@ -151,14 +152,14 @@ void contact_accept (pg_system *s)
         size_t i = c->pieces.dim * k;
         double *v = c->now.value + k * l.values;
         contact_vector (&c->pieces, k, c->gap + i + 1, 1, v + l.accepted);
-        /* faces that have come further apart need that overlap no more */
+        /* faces that have moved further apart need less of that initial overlap */
         if (k < c->ncrack) v[l.overlap] = fmin (v[l.overlap], fmax (0, c->initial[i] - c->gap[i]));
     }
-    /* by way of the memory, whose vectors round: a resumed run has them from there too */
+    /* taken from the memory, whose vectors are rounded, as a resumed run takes them */
     contact_recall (c);
 }
 
-/* One memory as another. */
+/* Copies a memory. */
 static pg_status copy (contact_memory *to, const contact_memory *from, size_t dim)
 {
     pg_status status = PG_OK;
@@ -177,15 +178,15 @@ pg_status contact_save (pg_system *s)
     return c ? copy (&c->start, &c->now, c->pieces.dim) : PG_OK;
 }
 
-/* The pieces at hand may be those of the step that is refused: what they remember follows. Nothing is
- * allocated where the memory at the start of the step had no more pieces than that of now had. */
+/* Restores the memory of the start of a refused step; the present pieces, which may be those of that step,
+ * take their values from it. Nothing is allocated if the memory then had no more pieces than now. */
 void contact_return (pg_system *s)
 {
     struct system_contact *c = s->contact;
     if (!c || copy (&c->now, &c->start, c->pieces.dim) != PG_OK) return;
     s->report->energy.friction = c->now.friction;
     platens_return (&c->platens);
-    /* pieces of platens that the refused step has met stay pairs */
+    /* pieces of platens that closed in the refused step stay pairs */
     if (c->now.n != c->pieces.n && contact_remember (c) != PG_OK) return;
     contact_recall (c);
 }
@@ -204,7 +205,7 @@ done:
     return status;
 }
 
-/* What results have not written yet. */
+/* Keeps the pieces stored for results that are not written yet. */
 static pg_status keep_shown (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -224,8 +225,8 @@ done:
     return status;
 }
 
-/* Forces, gaps and states of the pieces of the state at hand: it has been solved for, and is not again.
- * Called when caches have been made again. */
+/* Keeps forces, gaps and status of the present pieces, as a state that is solved is not solved again. Called
+ * after caches have been made again. */
 pg_status contact_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -253,7 +254,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (pg_keep_bytes (k, "contact.status", c->pieces.n, c->status, PG_CONTACT_SLIDING,
                            "the status of a piece"));
     if (k->reading) contact_recall (c);
-    if (k->reading) platens_gaps (s);                  /* the work of platens is counted from there */
+    if (k->reading) platens_gaps (s);                  /* the work of platens counts from these gaps */
     if (k->reading) pg_sparse_multiply (&c->G, c->force, c->nodal);
     if (k->reading) contact_count (s);
     r->contact.pieces = piece[0], r->contact.open = piece[1];

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Shear of a pair that is pressed by `normal`; g, s: gap and slip so far along the tangents. */
+/* Finds the shear force of a pair pressed by force[0], N; g, s: gap and slip so far along the tangents, m. */
 static pg_contact_status shear (const struct system_contact *c, size_t k, const double *g, const double *s,
                                 double *force)
 {
@@ -39,7 +39,7 @@ void contact_push (pg_system *s, const double *d, double *residual, int follow)
         if (g[0] < 0) {
             f[0] = -g[0] / c->soft[dim * k];
             c->status[k] = shear (c, k, g + 1, before, f), active = 1;
-            /* what the layer gives way by is no gap and no slip */
+            /* compression of the layer is neither gap nor slip */
             g[0] = 0;
             for (size_t a = 1; a < dim; a++) g[a] += c->soft[dim * k + a] * f[a];
         }

@@ -2,9 +2,9 @@
  * Equilibria with contact of crack faces and platens. With the cracks open, K u0 = F, gaps are g0 = gi + G
  * u0, gi without displacement; where one is negative, forces f of the pieces follow from the complementarity
  * of g = g0 + C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is
- * factored again). What rounding leaves is mended by the same refinement as all equilibria, with G' f among
+ * factored again). The state is refined as all equilibria are, with G' f among
  * the loads, and by forces for the gaps that are then measured.
- * In motion K is the matrix of the time step, k K + m M, u its end, and the force in the equations `weight`
+ * In dynamics K is the matrix of the time step, k K + m M, u its end, and the force in the equations `weight`
  * times the mean force f of the step (newmark.c). */
 #include "contact.h"
 #include <float.h>
@@ -12,25 +12,25 @@
 #include <string.h>
 
 enum { MOST_ROUNDS = 4 };
-/* Of gaps, relative: no further round is worth it. */
+/* No further round if the relative change of gaps is below this. */
 static const double GOOD = 1e-13;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* Are the faces that single broken bonds leave looked for? At rest, of forces by bonds. */
+/* 1: faces left by single broken bonds are looked for: in statics, with forces by bonds. */
 static int finds_broken (const pg_system *s)
 {
     return s->force->surfaces.faces && pg_criterion_of_bonds (s->problem->criterion)
            && (s->options->flags & PG_SOLVER_QUASI_STATIC);
 }
 
-/* The time step of relaxation is found before bonds break. */
+/* An upper bound that holds for later breaking, as relaxation finds its time step before bonds break. */
 double contact_stiffer (const pg_system *s)
 {
     if (!s->contact) return 1;
     return finds_broken (s) ? fmax (s->contact->stiffer, PG_CONTACT_STIFFEST) : s->contact->stiffer;
 }
 
-/* Elsewhere of a single bond that breaks in the run no face is known. */
+/* Warns where single bonds may break whose faces are not found. */
 static void doubt_broken (const pg_system *s)
 {
     const pg_criterion *breaks = s->problem->criterion;
@@ -76,7 +76,7 @@ static void free_contact (pg_system *s)
     s->contact = NULL, s->client = NULL, s->balance.pressed = NULL, s->direct.props.n = 0;
 }
 
-/* Arrays of the pairs at hand. */
+/* Allocates the arrays of the present pairs. */
 static pg_status make_pairs (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -117,16 +117,16 @@ done:
     return status;
 }
 
-/* A crack that grows in a time step does so behind its equations, whose forces and pairs are still asked
- * for: contact_renew. */
+/* 1: a crack grows in a time step whose equations, forces and pairs are still in use: contact_renew makes the
+ * pieces later. */
 static int grows_in_step (const pg_system *s, const pg_changes *changes)
 {
     return changes && (s->options->flags & PG_SOLVER_NEEDS_DENSITY)
            && pg_criterion_of_tips (s->problem->criterion);
 }
 
-/* Points of faces that see too little for a gap, once. Faces that single bonds leave may crumble: there is
- * nothing to touch then. */
+/* Warns once of points on faces with too few neighbours for a gap; not of faces left by single bonds, which
+ * may crumble: nothing touches there. */
 static void tell_blind (pg_system *s, const pg_contact_blind *blind)
 {
     char third[32] = "";
@@ -142,7 +142,7 @@ static void tell_blind (pg_system *s, const pg_contact_blind *blind)
                         100 * blind->share, blind->n == 1 ? "s" : "", PG_WIDEST_SUPPORT * PG_CONTACT_RADIUS);
 }
 
-/* Of the faces of cracks, and how nodes take part in their gaps. */
+/* Finds the pieces of crack faces, and how nodes enter their gaps. */
 static pg_status find_pieces (pg_system *s, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -207,7 +207,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     PG_TRY (options_blame (platens_refresh (s, state), s->options, "platens"));
     PG_TRY (make_pairs (s));
     c->is.began = 1;
-    /* in motion their mass holds them */
+    /* in dynamics mass holds loose parts */
     if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
         PG_TRY (options_blame (loose_refresh (&c->loose, s), s->options, "boundary"));
     s->direct.props.n = c->loose.n, s->direct.props.unknown = c->loose.prop;
@@ -240,8 +240,8 @@ double contact_energy (const pg_system *s)
     return sum;
 }
 
-/* Forces for the gaps at hand, which those of now belong to; d follows. *change: of the forces, turned into
- * gaps, over the largest gap without contact. */
+/* Finds contact forces for the present gaps, which belong to the present forces, and updates d. *change: of
+ * the forces, as gaps, over the largest gap without contact. */
 static pg_status press (pg_system *s, double t, double *d, double *change)
 {
     pg_status status = PG_OK;
@@ -280,7 +280,7 @@ done:
     return status;
 }
 
-/* What the report says of the pieces. */
+/* Counts pieces and their status for the report. */
 void contact_count (pg_system *s)
 {
     const struct system_contact *c = s->contact;
@@ -297,7 +297,7 @@ void contact_count (pg_system *s)
     }
 }
 
-/* Springs of loose parts bear nothing in an equilibrium. */
+/* Refuses an equilibrium in which springs of loose parts bear a force. */
 static pg_status check_loose (const pg_system *s, const double *d)
 {
     const contact_loose *l = &s->contact->loose;
@@ -310,7 +310,7 @@ static pg_status check_loose (const pg_system *s, const double *d)
                      "(reference force %.3g N): hold it by prescribed displacements", place, pull, size);
 }
 
-/* Equilibrium with the pairs at hand. */
+/* Finds the equilibrium with the present pairs. */
 static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
@@ -320,8 +320,8 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics 
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
     memset (c->rebound, 0, c->pieces.n * sizeof *c->rebound);
-    /* a body that platens alone load has no forces while they are away: from rest, not from what rounding
-     * would leave of a displacement */
+    /* a body that only platens load has no forces while they are apart from it: start from zero, as rounding
+     * of an old displacement would show */
     if (c->platens.n) memset (d, 0, s->ndof * sizeof *d);
     platens_place (s, t);
     for (size_t j = 0; j < c->loose.n; j++) c->loose.amount[j] = c->loose.target[j] = 0;
@@ -333,7 +333,7 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics 
     if (!dyn) PG_TRY (contact_factor (s));
     PG_TRY (system_solve_linear (s, t, d, dyn, residual));
     if (n) contact_gaps (c, d);
-    s->choice.begins = 0;                                     /* first guesses are those of the open faces */
+    s->choice.begins = 0;                                     /* first guesses belong to the open faces */
     double change = 1;
     int closes = c->is.touched = any_overlap (c) || contact_motions (s) > 0;
     if (closes) PG_TRY (contact_condense (s, dyn));
@@ -347,8 +347,8 @@ done:
     return status;
 }
 
-/* Under proportional loads forces scale with the load where the pairs that bear them have touched from the
- * start. */
+/* Event stepping, proportional loads: refuses pairs of platens that bear forces although they did not touch
+ * at the start, as forces then do not scale with the load. */
 static pg_status check_proportion (const pg_system *s)
 {
     const struct system_contact *c = s->contact;
@@ -366,7 +366,7 @@ static pg_status check_proportion (const pg_system *s)
     return PG_OK;
 }
 
-/* Pieces of platens that were no pairs may have closed: then once more, with them. */
+/* Finds the equilibrium; again where pieces of platens have closed that were not pairs yet. */
 static pg_status solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
@@ -385,13 +385,13 @@ done:
 }
 
 /* ---- tips ---------------------------------------------------------------------------------------------- */
-/* Pieces within so many spacings behind a tip, and so far beside its line, bear what its frame is loaded
- * with; the last two spacings carry too little, as the tip of a discretisation is not sharp, and what they
- * lack swings from piece to piece behind them: so the weight of pieces comes and goes gently. The direction
- * is that of the chord, up to the last turn. */
+/* Pieces from NEXT to LAST spacings behind a tip, and up to ASIDE beside its line, count for the mean stress
+ * on its faces. The last two spacings carry too little, as the tip of a discretisation is not sharp, and the
+ * error alternates from piece to piece behind them: so weights rise and fall smoothly. The direction is that
+ * of the chord up to the last kink. */
 static const double NEXT = 2, LAST = 14, ASIDE = 1, CHORD = 2.5;
 
-/* Distance of a place from a piece, `to` from its middle. */
+/* Distance of a point from a piece, m; `to`: from the middle of the piece to the point. */
 static double away_from (const pg_contact_piece *p, const double *to)
 {
     double along = to[0] * p->normal[1] - to[1] * p->normal[0], half = 0.5 * p->length,
@@ -399,7 +399,7 @@ static double away_from (const pg_contact_piece *p, const double *to)
     return hypot (beyond, beside);
 }
 
-/* What a piece does, of field `at`: forces on its left face, N. */
+/* Force of a piece on its left face in field `at`, N. */
 static double force_on (const struct system_contact *c, size_t row, int nfield, int at)
 {
     if (at) return c->route.track.force_rate[row];
@@ -416,7 +416,7 @@ static pg_face_piece piece_of (const struct system_contact *c, size_t k, int nfi
     return out;
 }
 
-/* Do the faces of a piece press on each other, at some time of a stretch of loads? */
+/* 1: the faces of a piece press on each other, at some point of a stretch of loads. */
 static int presses (const struct system_contact *c, size_t k, int nfield)
 {
     return nfield == 1 ? c->force[2*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
@@ -446,15 +446,15 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
             for (size_t i = 0; i < 2; i++) force[a][i] += weight * force_on (c, 2*k + i, nfield, a);
     }
     if (c) out->piece = c->press;
-    /* A branch that leaves a crack which presses elsewhere: beyond the kink its faces are those of another
-     * crack, closed or, for the last piece, just open; a ring around the kink knows nothing of the tip. */
+    /* A branch of a crack that presses elsewhere: beyond the kink the faces are those of another crack,
+     * closed or, in the last piece, just open; a ring around the kink says nothing of the tip. */
     if (isfinite (out->nearest)) out->nearest = fmin (out->nearest, straight);
-    /* the force on the left face is the traction of the stress behind it, turned round */
+    /* the force on the left face is the traction of the stress behind it, with opposite sign */
     for (int a = 0; a < nfield && area > 0; a++)
         for (int i = 0; i < 2; i++) out->stress[a][i] = -force[a][i] / area;
 }
 
-/* Which tips are closed at t; a body without an equilibrium there says so when it is asked for it. */
+/* Finds which tips are closed at t; where there is no equilibrium nothing is reported here. */
 static pg_status find_closed (pg_system *s, const pg_state *state, double t, double *d, unsigned char *closed)
 {
     double residual;
@@ -467,7 +467,7 @@ static pg_status find_closed (pg_system *s, const pg_state *state, double t, dou
     return now == PG_E_MEMORY ? now : PG_OK;
 }
 
-/* With stages: at the end of any of them. */
+/* Finds the tips that are closed at full load; with stages: at the end of any of them. */
 pg_status contact_settle_tips (pg_system *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -492,7 +492,8 @@ done:
     return status;
 }
 
-/* Under event stepping and proportional loads forces are those of load factor 1. */
+/* Contact at a tip of the state. In event stepping under proportional loads forces are those of load factor
+ * 1, and are scaled. */
 int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, pg_tip_faces *out)
 {
     const struct system_contact *c = s->break_loop.system.contact;
@@ -535,8 +536,8 @@ pg_status contact_create (pg_system *s)
     PG_ALLOC (s->contact, 1);
     s->client = &client;
     s->contact->setting = o->contact;
-    /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
-    /* loads with a constant part: contact_route.c */
+    /* proportional loads: every state, with its slips, scales with the load factor from the unloaded one */
+    /* loads with a constant part are in contact_route.c */
     s->contact->is.history = !o->event, s->contact->weight = 1;
     PG_ALLOC (s->contact->nodal, s->ndof);
     s->contact->pieces.dim = (size_t) s->problem->dim;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rigid platens in equilibria with contact: their pieces stand behind those of cracks, their prescribed
- * motion enters the gaps, their free motion is an unknown beside the forces (contact_free.c). Only pieces
- * that can come near are pairs: those within a spacing of the nearest one, or the way that the platen
- * goes; the gaps of the others are looked at after each solve, and what has closed becomes a pair. Work of
- * platens is summed by trapezoids like that of loads. */
+ * Rigid platens in equilibria with contact: their pieces follow those of cracks, their prescribed motion
+ * enters the gaps, their free motion is an unknown beside the forces (contact_free.c). Only pieces that can
+ * come near are pairs: those within a spacing of the nearest one, or within the displacement of the platen;
+ * the gaps of the others are checked after each solve, and closed ones become pairs. Work of platens is
+ * summed by trapezoids like that of loads. */
 #include "contact.h"
 #include <math.h>
 #include <string.h>
 
-/* How far beyond the nearest piece and the way of the platen pieces are pairs, spacings. */
+/* Pieces are pairs up to this distance beyond the nearest piece and the displacement of the platen,
+ * spacings. */
 static const double NEAR = 1;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
@@ -43,8 +44,8 @@ done:
 }
 
 /* Reduces the mean gaps between a platen and the pieces of a curved surface, by which a disk of radius R
- * would touch a plane (2 h)^2 / 6 R too late: all of them by what the mean gap of the nearest piece is above
- * the least distance there. The first touch is right then, and the shape that the means have stays. */
+ * would touch a plane (2 h)^2 / 6 R too late: all by the difference between the mean gap of the nearest piece
+ * and the least distance there. Then the first touch is right, and the shape of the surface stays. */
 static void begin_at_first_touch (const pg_problem *p, const pg_contact_pieces *one, size_t platen,
                                   double *gap)
 {
@@ -55,7 +56,8 @@ static void begin_at_first_touch (const pg_problem *p, const pg_contact_pieces *
     for (size_t k = 0; k < one->n && late > PG_NO_LENGTH * h; k++) gap[k] -= late;
 }
 
-/* The pieces opposite all platens, from the positions at the start; a platen in the body is refused. */
+/* Finds the pieces opposite all platens from the positions at the start; a platen inside the body is
+ * refused. */
 pg_status platens_create (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -219,7 +221,7 @@ void platens_place (pg_system *s, double t)
     platens_gaps (s);
 }
 
-/* What rows of a pair gain by the motion of its platen. */
+/* Change of gap `row` of a piece by the motion of its platen, m. */
 static double gain (const contact_platens *w, size_t piece, size_t row)
 {
     const double *b = w->row + 6 * (w->all.dim * piece + row), *q = w->motion[w->all.piece[piece].platen - 1];
@@ -240,7 +242,7 @@ void platens_gaps (pg_system *s)
     }
 }
 
-/* Pieces that are no pairs yet, and have closed: now they are. */
+/* Makes pairs of pieces that have closed and were none. */
 int platens_look (pg_system *s, const double *d)
 {
     contact_platens *w = &s->contact->platens;
@@ -263,7 +265,7 @@ double platens_press (const pg_problem *p, size_t i, int k, double t)
     return load < 0 || k >= 3 ? 0 : pg_load_value (&p->boundary.load[load], k, p->dim, anywhere, t);
 }
 
-/* Forces and moments (about `point`) that the platens exert on the body: - B' f. */
+/* Finds forces and moments (about `point`) of the platens on the body: - B' f. */
 void platens_react (pg_system *s)
 {
     struct system_contact *c = s->contact;
@@ -280,9 +282,9 @@ void platens_react (pg_system *s)
 }
 
 /* ---- work and results ---------------------------------------------------------------------------------- */
-/* Piece by piece, as forces times the way of what they move: across the surface that of the body, so that a
- * platen that comes from afar works from where it touches on, along it that of the platen, so that what slips
- * is friction's. */
+/* Sums work piece by piece, force times displacement: across the surface that of the body, so that a platen
+ * that comes from afar does work only from the first touch on; along it that of the platen, so that slip
+ * counts as friction. */
 double platens_book (pg_system *s, double scale)
 {
     struct system_contact *c = s->contact;
@@ -344,8 +346,8 @@ const pg_platen_values *pg_solver_platens (const pg_solver *s, size_t *n)
     return c ? c->platens.shown : NULL;
 }
 
-/* A platen that goes along its surface meets other places of a curved one: the distance by the linear gap and
- * that of the place itself, the body having moved, differ; told where that is much. */
+/* Warns where a platen that moves along its surface meets other parts of a curved one: where the linear gap
+ * differs much from the true distance there. */
 void platens_doubt (pg_system *s)
 {
     struct system_contact *c = s->contact;
@@ -372,7 +374,7 @@ void platens_doubt (pg_system *s)
                         worst);
 }
 
-/* Does some platen bear a force? */
+/* 1: some platen bears a force. */
 static int any_touches (const contact_platens *w)
 {
     for (size_t i = 0; i < w->n; i++)
@@ -409,7 +411,7 @@ void platens_return (contact_platens *w)
     if (w->n) memcpy (w->booked, w->start, 2 * w->all.dim * w->all.n * sizeof *w->start);
 }
 
-/* Called before the pairs are read: which pieces they are belongs to it. */
+/* Writes or reads back platens; called before the pairs are read, as it tells which pieces are pairs. */
 pg_status platens_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

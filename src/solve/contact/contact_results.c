@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What results tell of contact: the pieces of the last step, and the largest overlap of faces. */
+ * Contact for results: the pieces of the last step, and the largest overlap of faces. */
 #include "contact.h"
 #include <math.h>
 
-/* Ends of broken bonds beside a kink come together by strains that vary too fast for a mean of both ends, so
- * that they say nothing of faces that are held apart: places on the faces do. */
+/* Puts the largest overlap into the report, measured at points on the faces where contact holds these apart:
+ * ends of broken bonds beside a kink approach by strains that vary too fast for a mean of both ends. */
 void contact_note_overlap (pg_system *s, const pg_state *state)
 {
     const struct system_contact *c = s->contact;

@@ -3,15 +3,15 @@
  * loads, and stages). With the cracks open u0 = a_0 + s (a_1 - a_0), two equilibria, so that the gaps without
  * contact are a straight line of s, and forces and gaps follow it in stretches between changes of status
  * (pg_contact_stretch): u = u0 + Z f is a straight line in each. That line, taken to s = 0 and to s = 1, is
- * what the caller gets; both ends are mended by the refinement of all equilibria, with the forces of contact
+ * what the caller gets; both ends are refined as all equilibria are, with the forces of contact
  * that belong to them among the loads. */
 #include "contact.h"
 #include <math.h>
 #include <string.h>
 
 enum { MOST_ROUNDS = 4 };
-/* Of gaps, relative: good enough; of forces: balanced, and none; a path in total form is taken up again so
- * far behind a change of status. */
+/* Relative change of gaps that is good enough; imbalance of forces that counts as balanced; forces that count
+ * as zero; distance behind a change of status at which a path in total form is continued. */
 static const double GOOD = 1e-12, BALANCED = 1e-12, ROUNDING = 1e-14, BEHIND = 1e-9;
 
 static size_t rows_of (const struct system_contact *c) { return c->pieces.dim * c->pieces.n; }
@@ -23,7 +23,7 @@ static pg_contact_path path_of (const struct system_contact *c, const double *sl
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* The pieces have changed: what belongs to them is gone. */
+/* Frees what belongs to the pieces, which have changed. */
 void contact_route_clear (struct system_contact *c)
 {
     contact_route *r = &c->route;
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* What a stretch or a beginning has cost, the counts before it being given. */
+/* Counts the cost of a stretch or a beginning; `before`: the counts before it. */
 static void count_work (pg_system *s, const pg_contact_track *before, double t0)
 {
     const pg_contact_track *now = &s->contact->route.track;
@@ -69,7 +69,7 @@ static void count_work (pg_system *s, const pg_contact_track *before, double t0)
 }
 
 /* ---- where it stands ----------------------------------------------------------------------------------- */
-/* Forces on the nodes, and what is told of the pieces. */
+/* Finds the forces on the nodes, and the counts of pieces for the report. */
 static void show_forces (pg_system *s)
 {
     struct system_contact *c = s->contact;
@@ -89,7 +89,7 @@ static void note_line (pg_system *s)
         r->force_from[i] = c->force[i] - r->track.force_rate[i] * r->track.s;
 }
 
-/* The solution at share `at`, slips counting from those of the last accepted state. */
+/* Finds the solution at share `at`, with slips from the last accepted state. */
 static pg_status begin_at (pg_system *s, double at)
 {
     struct system_contact *c = s->contact;
@@ -112,7 +112,8 @@ static pg_status begin_at (pg_system *s, double at)
     return PG_OK;
 }
 
-/* One end of the way may bear next to nothing: it is measured by the forces of the other one, too. */
+/* Refines an end of the stretch. It may have hardly any forces: its residual is also compared with those of
+ * the other end. */
 static pg_status balance (pg_system *s, double t, double *d, double *residual)
 {
     system_balance *b = &s->balance;
@@ -136,13 +137,13 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
     struct system_contact *c = s->contact;
     contact_route *r = &c->route;
     double *const guess[2] = { base, unit }, at = c->now.at - from;
-    int known = r->open[0] && r->from == from;         /* with open cracks, of the cracks before */
+    int known = r->open[0] && r->from == from;         /* open cracks are known, of the cracks before */
     if (contact_motions (s))
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "a part of the body that contact alone holds is not known to event stepping under loads "
                  "with a constant part, or in stages: use stepping: fixed");
     PG_TRY (make_room (s));
-    /* the end of a stage that takes all loads off bears nothing, and comes first */
+    /* the end of a stage that takes all loads off has no forces, and comes first */
     s->balance.borne = fmax (s->balance.borne, r->reference);
     *residual = r->reference = 0, r->from = from, r->touches = 0;
     contact_set_active (s, 0);
@@ -166,7 +167,7 @@ done:
 }
 
 /* ---- stretches ----------------------------------------------------------------------------------------- */
-/* d = a_0 + s (a_1 - a_0) + Z f */
+/* d = a_0 + s (a_1 - a_0) + Z f, with share s and contact forces f */
 static void displacement_of (const pg_system *s, double share, const double *force, double *d)
 {
     const struct system_contact *c = s->contact;
@@ -223,7 +224,7 @@ done:
     return status;
 }
 
-/* The gaps have been mended: so is the state, which keeps its slips. */
+/* Finds the present state again after its gaps were refined; slips stay. */
 static pg_status begin_again (pg_system *s, const double *slip)
 {
     pg_status status = PG_OK;

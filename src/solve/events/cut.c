@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bonds that somebody else cuts between two steps: the force is brought in line with those that are left, and
- * what the solver keeps of them is made anew. */
+ * Bonds that the caller cuts between two steps (pg_solver_cut): the force is refreshed for those that are
+ * left, and what the solver derives from them is made again. */
 #include "solve/contact/contact.h"
 #include "event_stepping.h"
 #include "solve/growth/facet_growth.h"
 
-/* Why this solver cannot take bonds away now; NULL: it can. */
+/* Why this solver cannot cut bonds now; NULL: it can. */
 static const char *refusal (const pg_solver *s)
 {
     const break_loop *b = &s->break_loop;
@@ -27,10 +27,10 @@ pg_status pg_solver_cut (pg_solver *s, pg_state *state, const pg_changes *cut)
     const char *why = refusal (s);
     if (why) PG_FAIL (PG_E_USAGE, "%s", why);
     for (size_t k = 0; k < cut->n; k++) state->alive[cut->bond[k]] = 0;
-    if (!s->started) s->begun = 0;                     /* the start looks at the state as it is */
+    if (!s->started) s->begun = 0;                     /* the start examines the state again */
     if (!s->started || cut->n == 0) goto done;
     PG_TRY (system_refresh (&s->break_loop.system, state, cut));
-    s->follows = 0;                                    /* the copy of the state does not know of these */
+    s->follows = 0;                                    /* the copy of the state does not have these cuts */
 done:
     return status;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Looking ahead under proportional loads (event_ahead.h). What is found is the same list of events as with a
- * look at all bonds after every one: within the group the choice is that of event_stepping.c, bond by bond,
- * and all others are looked at before anything is handed out. Load factors differ by the rounding of the
- * equilibria, as these come from dense algebra on what breaking has touched (event_solver.h). */
+ * Looking ahead under proportional loads (event_ahead.h). The events found are those of a look at all bonds
+ * after every event: within the group bonds are chosen as in event_stepping.c, and all others are checked
+ * before anything is handed out. Load factors differ by the rounding of the equilibria, as these come from
+ * dense algebra on what breaking has touched (event_solver.h). */
 #include "event_stepping.h"
 #include "event_ahead.h"
 #include <math.h>
@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Share of the utilisation of the worst bond: around such bonds the group lies. */
+/* The group lies around bonds of at least this share of the largest utilisation. */
 static const double near_limit = 0.85;
-/* Share of the tolerance above which the last equilibrium of a block is corrected by a solve of its own. */
+/* Above this share of the tolerance the residual of the last equilibrium of a block is reduced by a solve. */
 static const double settled = 1e-3;
 
 void ahead_free (event_ahead **ahead)
@@ -43,8 +43,8 @@ done:
     return status;
 }
 
-/* Loads proportional to the load factor, bonds judged one by one, the path of equilibria; a force that knows
- * groups, and a solver that knows displacements without a factorization. */
+/* 1: looking ahead is possible: proportional loads, single bonds judged, equilibria followed; a force that
+ * can judge groups, and a solver that finds displacements without a factorization. */
 static int possible (const pg_solver *s)
 {
     const event_stepping *e = events_of (s);
@@ -72,7 +72,7 @@ static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes 
     return status;
 }
 
-/* The events from k on have not happened: their bonds live again, and shape functions are those before. */
+/* Takes back the events from k on: their bonds become intact again, and shape functions are as before. */
 static pg_status revive (pg_solver *s, event_ahead *q, pg_state *state, size_t k)
 {
     pg_status status = PG_OK;
@@ -103,8 +103,8 @@ done:
     return status;
 }
 
-/* All bonds at the displacement at hand: the group around those near their limit, and the largest utilisation
- * per load factor outside of it. *found 0: there is none. */
+/* Judges all bonds at the present displacement: makes the group around those near their limit, and finds the
+ * largest utilisation per load factor outside of it. *found 0: there is no group. */
 static pg_status make_zone (pg_solver *s, event_ahead *q, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -128,7 +128,7 @@ done:
     return status;
 }
 
-/* Displacement at the nodes of the group: of the solver, or of a whole field. */
+/* Sets the displacement at the nodes of the group: from the solver, or from a whole field. */
 static pg_status take (const pg_solver *s, event_ahead *q, const double *whole)
 {
     pg_status status = PG_OK;
@@ -145,8 +145,8 @@ done:
     return status;
 }
 
-/* The utilisations of the state at this factor, from those of the unit displacement; measured anew where they
- * do not grow in proportion. As event_stepping.c does. */
+/* Finds the utilisations of the group at this factor from those of the unit displacement, or measures them
+ * where they are not proportional, as event_stepping.c does. */
 static pg_status look_over_group (pg_solver *s, event_ahead *q, const pg_state *state, double factor,
                                   double *top)
 {
@@ -172,8 +172,8 @@ done:
     return status;
 }
 
-/* Appends the next event: bonds within the width of the worst one. *why 0: found; 1: at the next level or
- * beyond, or none at all; 2: it lies outside the inner part. */
+/* Appends the next event: the bonds within the tie of the worst one. *why 0: found; 1: it is at the next
+ * level or beyond, or there is none; 2: it lies outside the inner part. */
 static pg_status choose (pg_solver *s, event_ahead *q, pg_state *state, double level, int *why)
 {
     pg_status status = PG_OK;
@@ -211,8 +211,7 @@ done:
     return status;
 }
 
-/* Event after event in the group, up to a block full. *retry: a new group may find what this one could
- * not. */
+/* Finds event after event in the group, up to a full block. *retry 1: a new group may find the next one. */
 static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double level, int *retry)
 {
     pg_status status = PG_OK;
@@ -230,7 +229,7 @@ static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double lev
         if (outcome == INVERSE_LOST) {
             PG_TRY (revive (s, q, state, q->nevent - 1));
             q->nbroken = q->event[--q->nevent].first;
-            q->cold = -1;                              /* for the next one: a plain event first */
+            q->cold = -1;                              /* the next event is found without looking ahead */
             goto done;
         }
         q->due |= outcome == INVERSE_DUE;
@@ -242,8 +241,8 @@ done:
 }
 
 /* ---- checking ------------------------------------------------------------------------------------------ */
-/* All other bonds at all events found: the first event at which one of them is within the width of its limit
- * has not happened, nor any after it. */
+/* Checks all other bonds at all events found, *good of which stay: the first event at which one of these
+ * bonds is within the tie of its limit is wrong, and so are all after it. */
 static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *good)
 {
     pg_status status = PG_OK;
@@ -274,12 +273,12 @@ static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *g
     if (q->nevent == 0) goto done;
     pg_status now = event_solver_settle (e->engine, 0, settled * o->tolerance, q->scaled,
                                           &relative);
-    if (now == PG_E_SINGULAR) relative = INFINITY;         /* a part has come loose: the plain way decides */
+    if (now == PG_E_SINGULAR) relative = INFINITY;  /* a part has come loose: decided without looking ahead */
     else PG_TRY (now);
     for (size_t i = 0; i < sys->ndof; i++) q->block[i * q->stride + q->nevent - 1] = q->scaled[i];
     q->residual = relative;
     if (relative <= o->tolerance) goto done;
-    PG_TRY (revive (s, q, state, 0));                  /* not good enough: as if nothing had been found */
+    PG_TRY (revive (s, q, state, 0));                  /* not accurate enough: drop all events found */
     event_solver_drop (e->engine);
     q->cold = -1, *good = q->nevent = q->nbroken = 0;
 done:
@@ -287,7 +286,7 @@ done:
 }
 
 /* ---- looking ahead ------------------------------------------------------------------------------------- */
-/* Factors the stiffness of now where the solver says that this pays. */
+/* Factors the present stiffness if that pays by the count of the solver; else begins a new block. */
 static pg_status renew (pg_solver *s, event_ahead *q)
 {
     pg_status status = PG_OK;
@@ -299,7 +298,7 @@ done:
     return status;
 }
 
-/* Seconds that count as something else already. */
+/* Seconds of the run that count in other entries than PG_SECONDS_BREAK. */
 static double seconds_of_others (const pg_solver *s)
 {
     double sum = 0;
@@ -307,7 +306,7 @@ static double seconds_of_others (const pg_solver *s)
     return sum;
 }
 
-/* Fills the queue, if it can: afterwards ahead_waits. */
+/* Finds the next events, if it can; ahead_waits then tells whether there are any. */
 pg_status ahead_look (pg_solver *s, pg_state *state, double level)
 {
     pg_status status = PG_OK;
@@ -344,7 +343,7 @@ done:
     return status;
 }
 
-/* The event at the head of the queue: its bonds die in `state`, are logged and listed for the force. */
+/* Breaks the bonds of the first waiting event in `state`, logs them and lists them for the force. */
 pg_status ahead_kill (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -364,15 +363,15 @@ done:
     return status;
 }
 
-/* Of the event at the head of the queue; *top: the largest utilisation there. */
+/* Load factor of the first waiting event; *top: the largest utilisation there. */
 double ahead_factor (const event_ahead *q, double *top)
 {
     *top = q->event[q->at].top;
     return q->event[q->at].factor;
 }
 
-/* The equilibrium after it. What the force has noted of changes since the solver was asked last is nothing
- * but rounding when the queue is empty: the solver has seen these events. */
+/* Makes unit the equilibrium after that event. When no event is left, changes that the force has recorded are
+ * rounding only, as the solver has seen these events, and are cleared. */
 pg_status ahead_take (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -387,8 +386,7 @@ done:
     return status;
 }
 
-/* A step is refused, maybe in the middle of a look: what was found may not have been checked, nor what is
- * known of the group. All of it is found anew. */
+/* Drops all events found, as a step is refused, maybe during a look ahead that was not checked yet. */
 void ahead_refused (event_ahead *q)
 {
     if (!q) return;
@@ -402,7 +400,7 @@ void ahead_refused (event_ahead *q)
 void ahead_tell (pg_solver *s)
 {
     const event_ahead *q = events_of (s)->ahead;
-    static const double rate = 15e-9;                  /* s: to measure and judge a bond */
+    static const double rate = 15e-9;                  /* s, to measure and judge a bond */
     char what[96], why[160];
     if (!q || q->found == 0) return;
     snprintf (what, sizeof what, "a look at all bonds after %ld of %ld events", q->found, s->report.events);
@@ -414,7 +412,7 @@ void ahead_tell (pg_solver *s)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* The events that wait: where they are in the lists, and their bonds. Places that are free are zero. */
+/* Keeps the waiting events, with the positions of their bonds in the list. Unused entries are zero. */
 static pg_status keep_events (event_ahead *q, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -432,8 +430,8 @@ done:
     return status;
 }
 
-/* Where the next looks begin depends on how far this one came: all of it is kept, so that a run that is read
- * back finds its events in the same blocks, and with the same bits. */
+/* Keeps all of this, as the next looks ahead depend on how far this one came: a run that is read back finds
+ * its events in the same blocks, to the same bits. */
 pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -4,20 +4,21 @@
  *
  *     (1 + D H) dx = r,    r = p - x - D u_T,    u_T = (u_b)_T + H x,
  *
- * solved by the LU factors of the inverse and refined by its own residual, in which no springs are. */
+ * solved by the LU factors of the inverse and refined by its own residual, which is without springs. */
 #include "event_solver.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A displacement that grows this much in an event belongs to a part that has come loose: the residual of the
- * whole body decides. */
+/* A displacement that grows by this factor in an event is that of a part that has come loose: then the
+ * residual of the whole body decides. */
 static const double loose = 1e6;
-/* Numbers read in a second. */
+/* Numbers read from memory in a second. */
 static const double memory_rate = 1e9;
 enum { MOST_ROUNDS = 4 };
-static const double fine = 1e-13, bearable = 1e-10;     /* of a residual, over the reference force */
+/* residual over the reference force: aimed at; accepted */
+static const double fine = 1e-13, bearable = 1e-10;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time)
@@ -26,8 +27,8 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
     event_solver *e = NULL;
     *out = NULL;
     if (!s->force->spares.change || !system_can_factor (s)) return PG_OK;
-    /* Else there is one solve only. Plain runs leave out the springs of weak unknowns as well: what
-     * refinement leaves of them moves mechanisms (rows of points between cracks), and the load of an event by
+    /* Otherwise there is one solve only. Plain runs leave out the springs of weak unknowns as well, whose
+     * effect after refinement moves mechanisms (rows of points between cracks), and the load of an event by
      * 1e-6. */
     s->updates.serves = s->problem->criterion->type != NULL;
     if (s->options->plain) return PG_OK;
@@ -74,7 +75,7 @@ void event_solver_at (event_solver *e, double first, double second)
 }
 
 /* ---- bases --------------------------------------------------------------------------------------------- */
-/* The residual of u = 0 at each load factor: what loads and prescribed values put in, N. */
+/* out[c] = residual of u = 0 at the load factor of case c: loads and prescribed values, N (ndof). */
 static pg_status constant_forces (event_solver *e, double *const *out)
 {
     pg_status status = PG_OK;
@@ -88,7 +89,7 @@ done:
     return status;
 }
 
-/* The solution at hand becomes that of event k of the block. */
+/* Stores the present solution as that of event k of the block. */
 static pg_status remember (event_solver *e, int k)
 {
     pg_status status = PG_OK;
@@ -134,7 +135,7 @@ done:
 }
 
 /* ---- forces on the touched unknowns -------------------------------------------------------------------- */
-/* Vectors of touched unknowns as long as those of the inverse. */
+/* Makes the vectors of touched unknowns as long as those of the inverse. */
 static pg_status make_room (event_solver *e)
 {
     pg_status status = PG_OK;
@@ -152,7 +153,7 @@ done:
     return status;
 }
 
-/* The unknowns from `first` on are new: nothing acts on them, and they stand where they stood. */
+/* Adds the touched unknowns from `first` on: no force acts on them, and their displacement stays. */
 static pg_status extend (event_solver *e, size_t first)
 {
     const touched_unknowns *w = &e->inverse->touched;
@@ -169,7 +170,7 @@ done:
     return status;
 }
 
-/* u of the touched unknowns from x */
+/* u = displacement of the touched unknowns by the forces x. */
 static void displace (event_solver *e, event_case *o)
 {
     const touched_unknowns *w = &e->inverse->touched;
@@ -188,7 +189,8 @@ static double unbalanced (event_solver *e, const event_case *o, double *r)
     return sqrt (sum) / e->scale;
 }
 
-/* One case: until the residual is rounding or no longer falls by half. */
+/* Solves one case until the residual is rounding or no longer falls by half; returns 0 where the system is
+ * singular or the residual stays. */
 static int solve_case (event_solver *e, event_case *o)
 {
     inverse *v = e->inverse;
@@ -205,7 +207,7 @@ static int solve_case (event_solver *e, event_case *o)
     return isfinite (now) && now <= bearable;
 }
 
-/* x += dx, u of all cases; 0: the system is singular or its residual stays. */
+/* Solves all cases: x += dx, and u; returns 0 where the system is singular or its residual stays. */
 static int solve_all (event_solver *e)
 {
     size_t t = e->inverse->touched.t;
@@ -215,7 +217,7 @@ static int solve_all (event_solver *e)
     return 1;
 }
 
-/* x and u as before that. */
+/* Restores x and u as before solve_all. */
 static void undo (event_solver *e)
 {
     size_t t = e->inverse->touched.t;
@@ -226,8 +228,8 @@ static void undo (event_solver *e)
 }
 
 /* ---- updates ------------------------------------------------------------------------------------------- */
-/* Constant forces that follow shape functions have changed: measured anew; p on the unknowns where they
- * differ from those of the base, which become touched. *fits 0: too many. */
+/* Measures constant forces again that have changed with shape functions: p on the unknowns where they differ
+ * from those of the base, which become touched. *fits 0: too many. */
 static pg_status change_of_forces (event_solver *e, int *fits)
 {
     pg_status status = PG_OK;
@@ -264,8 +266,8 @@ static double largest (const double *a, size_t n)
     return top;
 }
 
-/* Has a loaded part come loose? Its displacement knows no bounds, and all that can be said is what the
- * residual of the whole body says. */
+/* 1: a loaded part has come loose: its displacement is unbounded, and only the residual of the whole body
+ * tells. */
 static int runs_away (const event_solver *e)
 {
     const inverse *v = e->inverse;
@@ -274,8 +276,7 @@ static int runs_away (const event_solver *e)
     return 0;
 }
 
-/* Takes the change of K and of forces in. INVERSE_LOST: nothing can be said of u until there is a new base.
- * */
+/* Takes in the change of K and of forces. INVERSE_LOST: u is not known until there is a new base. */
 static pg_status take_in (event_solver *e, inverse_outcome *outcome)
 {
     pg_status status = PG_OK;
@@ -322,8 +323,8 @@ done:
     return status;
 }
 
-/* Columns of full length are far apart in memory: of those that came since the last call the few numbers that
- * are wanted again and again are gathered once. */
+/* Gathers the rows of the watched nodes from new columns of G, once, as full columns are far apart in
+ * memory. */
 static pg_status gather_rows (event_solver *e)
 {
     pg_status status = PG_OK;
@@ -362,8 +363,8 @@ pg_status event_solver_full (event_solver *e, int which, double *u)
     return PG_OK;
 }
 
-/* The solution is equilibrium up to what the base has left unbalanced, springs of weak unknowns above all:
- * that is taken out of the base itself; q is such that the solution at hand is balanced. */
+/* Corrects the base for what it has left unbalanced, mainly by springs of weak unknowns, up to which the
+ * solution is an equilibrium; q is set so that the present solution is balanced. */
 pg_status event_solver_settle (event_solver *e, int which, double enough, double *u, double *residual)
 {
     pg_status status = PG_OK;
@@ -400,7 +401,7 @@ pg_status event_solver_flush (event_solver *e)
     return remember (e, 0);
 }
 
-/* One product of the Green columns with the forces of all events asked for; what was touched later has no
+/* One product of the Green columns with the forces of all events asked for; unknowns touched later have no
  * force in them. */
 pg_status event_solver_block (event_solver *e, int which, int n, const int *list, double *u)
 {
@@ -423,7 +424,8 @@ done:
     return status;
 }
 
-/* What broke since event k lives again: D is as it was, up to rounding, which the next updates correct. */
+/* Goes back to event k; bonds broken since are intact again: D is as it was, up to rounding, which the next
+ * updates correct. */
 pg_status event_solver_back (event_solver *e, int k, inverse_outcome *outcome)
 {
     pg_status status = PG_OK;
@@ -442,7 +444,7 @@ done:
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* Of every load case u_b and the constant residual at the base, x, p and q. */
+/* Keeps u_b and the constant residual at the base, x, p and q of every load case. */
 static pg_status keep_cases (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -464,7 +466,7 @@ done:
     return status;
 }
 
-/* The forces of every event of the block, of as many unknowns as were touched then. */
+/* Keeps the forces of every event of the block, on the unknowns that were touched then. */
 static pg_status keep_block (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -2,7 +2,7 @@
  * Event stepping: from one break to the next. Between breaks everything is linear in the load factor lambda,
  * so that d = lambda d_1 and the factor of the next break follows in closed form (theory F6): go there, break
  * the bonds that reach their limit (ties included), solve for the new d_1, and so on; levels that the user
- * wants are reported as they are passed. Loads with a constant part as well have two equilibria, at the ends
+ * wants are reported as they are passed. Loads that have a constant part need two equilibria, at the ends
  * of a line, and the next break is looked for on it (event_stepping_affine.c); all else is the same. */
 #include "solve/contact/contact.h"
 #include "event_stepping.h"
@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double rounding = 1e-12;                  /* of a load factor */
+static const double rounding = 1e-12;                  /* relative rounding of a load factor */
 
-/* The displacement at load factor 1 of the intact body; with affine loads that at 0 as well. A run that
- * goes on from a state begins with what it has. */
+/* Finds the displacement of the intact body at load factor 1, with affine loads that at 0 too. A run that
+ * goes on from a state begins with its displacement. */
 pg_status event_start (pg_solver *s, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -37,7 +37,8 @@ done:
     return status;
 }
 
-/* By the engine: from the last equilibria where it knows what has changed, else a new base. */
+/* Finds the equilibria by the event solver: from the last ones where it knows the change, else from a new
+ * base. */
 static pg_status solve_by_engine (event_stepping *e)
 {
     pg_status status = PG_OK;
@@ -56,7 +57,7 @@ done:
     return status;
 }
 
-/* Affine loads: one factorization, two solves. */
+/* Finds the equilibria for the present bonds. Affine loads: one factorization, two solves. */
 pg_status event_solve (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -78,7 +79,7 @@ done:
     return status;
 }
 
-/* Linear between those at 0 and at 1, or at both ends of a stage. */
+/* d = displacement at a load factor: linear between those at 0 and 1, or at both ends of a stage. */
 void event_displacement (const pg_solver *s, double factor, double *d)
 {
     const event_stepping *e = events_of (s);
@@ -89,8 +90,8 @@ void event_displacement (const pg_solver *s, double factor, double *d)
                             : e->base[i] + share * (e->unit[i] - e->base[i]);
 }
 
-/* The first step of a stage of loading: the state is at its start, in the equilibrium at which the last one
- * ended, from which `base` and `unit` are solved for anew. */
+/* Begins a stage of loading: the state is the equilibrium at which the last one ended, from which `base` and
+ * `unit` are found again. */
 static pg_status begin_stage (pg_solver *s, pg_state *state, double ended)
 {
     pg_status status = PG_OK;
@@ -111,8 +112,8 @@ done:
     return status;
 }
 
-/* A displacement that was tried in vain may be anything: the next attempt begins with that of the state. The
- * work balance at hand is not that of `unit` any more. */
+/* Resets unit and base to the state, as displacements of a failed attempt may be anything; the work balance
+ * at hand is no longer that of `unit`. */
 void event_equilibrium_lost (pg_solver *s, const pg_state *state)
 {
     event_stepping *e = events_of (s);
@@ -140,8 +141,8 @@ done:
     return status;
 }
 
-/* Proportional loads: that of the balance at hand, which is that of `unit`. Affine ones: of the differences
- * between load factors 1 and 0. */
+/* Work per squared load factor. Proportional loads: from the balance at hand, which is that of `unit`; affine
+ * ones: from the differences between load factors 1 and 0. */
 pg_status event_secant (pg_solver *s, double *out)
 {
     pg_status status = PG_OK;
@@ -164,8 +165,8 @@ done:
     return status;
 }
 
-/* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and given
- * by the step that cannot be made. */
+/* 1: there is no equilibrium after a break. This is no error yet, as the event itself is a result: the reason
+ * is kept for the step that cannot be made. */
 int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
 {
     event_stepping *e = events_of (s);
@@ -176,15 +177,14 @@ int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status n
     return 1;
 }
 
-/* solver.stop.stiffness; 0 ends no run but one whose body bears nothing at all. */
+/* solver.stop.stiffness; if 0, the run ends only where the body bears no load at all. */
 static double least_share (const pg_solver *s)
 {
     return fmax (PG_OWN (pg_static_options, &s->options)->stop_stiffness, 1e-12);
 }
 
-/* The two natural ends of a run: the crack arrives at a set of points, or the body bears (almost) nothing
- * any more, seen from the work per squared load factor. Under forces that is a compliance, which grows
- * instead of falling. */
+/* Ends the run where the crack has arrived at a set of points, or the body bears (almost) no load any more by
+ * its work per squared load factor. Under forces that is a compliance, which grows instead of falling. */
 pg_status event_stops (pg_solver *s, const pg_state *state, double factor, double secant)
 {
     pg_status status = PG_OK;
@@ -210,8 +210,8 @@ done:
     return status;
 }
 
-/* Nothing holds the parts of a body that has come apart: the displacement at load factor 1 is as large as the
- * rounding of K allows, and so are the energies that belong to it. */
+/* 1: the body has come apart. Nothing holds its parts: the displacement at load factor 1 is as large as the
+ * rounding of K allows, and so are its energies, which are replaced. */
 int event_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
 {
     if (!s->finished || !(cut || events_of (s)->secant > 1 / least_share (s))) return 0;
@@ -220,7 +220,7 @@ int event_apart (pg_solver *s, int cut, double work, double strain, pg_step *ste
     return 1;
 }
 
-/* solver.max_events, for runs that would break bond after bond. */
+/* Ends the run at solver.max_events. */
 void event_limit (pg_solver *s, const pg_state *state, double factor)
 {
     if (state->events < s->options.max_events) return;
@@ -229,7 +229,7 @@ void event_limit (pg_solver *s, const pg_state *state, double factor)
     s->finished = 1;
 }
 
-/* At a held load the worst bonds break, by what the state itself shows: utilisation in b->factor. */
+/* At a held load: finds the utilisation of the state itself, in b->factor, by which the worst bonds break. */
 static pg_status worst_here (pg_solver *s, const pg_state *state, double *top, double *scale)
 {
     pg_status status = PG_OK;
@@ -242,8 +242,8 @@ done:
     return status;
 }
 
-/* The bonds at their limit die, and those within the width of ties. Proportional loads: by the load factors
- * at which they reach it. scale: of the utilisation kept. */
+/* Breaks the bonds at their limit and those within the tie; proportional loads: by the load factors at which
+ * they reach it. scale: factor of the utilisation kept. */
 static pg_status kill_at (pg_solver *s, pg_state *state, double factor, double scale)
 {
     pg_status status = PG_OK;
@@ -261,9 +261,9 @@ done:
     return status;
 }
 
-/* Breaks what reaches its limit at `factor`, finds the equilibria without it and accounts the work at an
- * unchanged load; where there is no equilibrium the next step is refused. Events that were found together
- * bring both with them. */
+/* Breaks what reaches its limit at `factor`, finds the equilibria after it and accounts the work at an
+ * unchanged load; without an equilibrium the next step is refused. Events that were found ahead have their
+ * bonds and equilibria already. */
 static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
 {
     pg_status status = PG_OK, now = PG_OK;
@@ -297,8 +297,8 @@ done:
     return status;
 }
 
-/* Is the utilisation of the worst bond proportional to the load factor, so that its critical factor is exact?
- * With the finite stretch it is only nearly so. */
+/* 1: the utilisation of the worst bond is proportional to the load factor, so that its critical factor is
+ * exact. With finite stretch it is only nearly so. */
 static int grows_in_proportion (const break_loop *b, const pg_state *state)
 {
     double top = break_loop_largest (b, b->utilisation), off = 0;
@@ -308,9 +308,9 @@ static int grows_in_proportion (const break_loop *b, const pg_state *state)
     return !(system_most (&b->system, off) > 1e-9);
 }
 
-/* Utilisation of the accepted state: of proportional loads from that of the unit displacement, independent of
- * the closed form that gave the factor; where a measure is not linear (finite stretch) the state itself is
- * measured. *scale belongs to the utilisation kept. */
+/* Finds the utilisation of the accepted state: under proportional loads from that of the unit displacement,
+ * independent of the closed form of the factor; where it is not linear (finite stretch) at the state itself.
+ * *scale: factor of the utilisation kept. */
 static pg_status look_over (pg_solver *s, const pg_state *state, double factor, int breaks, double *scale,
                             pg_step *step)
 {
@@ -334,13 +334,13 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
                                         &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
         over = break_loop_over (b, state, *scale, &step->utilisation);
     }
-    /* at a held factor they are about to break */
+    /* at a held factor bonds over the limit are about to break */
     if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
 done:
     return status;
 }
 
-/* Reactions of all loads, by the balance at hand. */
+/* Finds the reactions of all loads from the balance at hand. */
 static void take_reactions (pg_solver *s, double factor)
 {
     const double *at_hand = s->break_loop.work_balance.reaction, scale = events_of (s)->base ? 1 : factor;
@@ -363,7 +363,7 @@ done:
 }
 
 /* ---- growth by facets ---------------------------------------------------------------------------------- */
-/* The measurement for the equilibria at hand, unless there is one. */
+/* Measures the tips at the present equilibria, unless they are measured. */
 pg_status event_measure (pg_solver *s, const pg_state *state)
 {
     const event_stepping *e = events_of (s);
@@ -371,7 +371,7 @@ pg_status event_measure (pg_solver *s, const pg_state *state)
     return facet_measure (&s->break_loop, state, e->base, e->unit, stage_end (s));
 }
 
-/* Proportional loads: everything grows with the load factor. */
+/* *next = load factor of the next growth. Under proportional loads everything grows with the load factor. */
 pg_status event_next_growth (pg_solver *s, const pg_state *state, double *next)
 {
     pg_status status = PG_OK;
@@ -383,8 +383,8 @@ done:
 }
 
 /* ---- one step ------------------------------------------------------------------------------------------ */
-/* Proportional loads: the smallest load factor at which a bond or a facet reaches its limit, or the next
- * level that the user wants, whichever comes first; *breaks: something breaks there. */
+/* Proportional loads: finds the smallest load factor at which a bond or a facet reaches its limit, or the
+ * next level, whichever comes first; *breaks 1: something breaks there. */
 static pg_status aim_in_proportion (pg_solver *s, pg_state *state, double level, double *factor, int *breaks,
                                     pg_step *step)
 {
@@ -410,7 +410,7 @@ done:
     return status;
 }
 
-/* The state at this factor, work and reactions there. */
+/* Goes to the state at this factor; finds work and reactions there. */
 static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -431,8 +431,8 @@ done:
     return status;
 }
 
-/* The load has come to a level; the last one is the end of the stage, or of the run. A body that an event has
- * set in motion there comes to rest first, and the level is taken then. */
+/* Takes the level that the load has reached; the last one ends the stage, or the run. A body that an event
+ * has set in motion there comes to rest first. */
 static void take_level (pg_solver *s, const pg_state *state, pg_step *step)
 {
     int stages = s->stage.now.number > 0;
@@ -448,8 +448,8 @@ static void take_level (pg_solver *s, const pg_state *state, pg_step *step)
                             "no bond broke: the answer is linear in the load factor");
 }
 
-/* To the next break or level, in either direction, over changes of contact on the way; then what breaks
- * there. Loads with a constant part begin at load factor 0, where that part acts alone. */
+/* Goes to the next break or level, up or down, through changes of contact status, and breaks what is at its
+ * limit. Loads with a constant part begin at load factor 0, where that part acts alone. */
 static pg_status to_next_event (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -507,10 +507,10 @@ void event_free (pg_solver *s)
     instability_free (&e->unstable);
 }
 
-/* What was measured on the way is not that of the state that is gone back to. Nor are the displacements, as
- * a step may fail after it has solved for those without the bonds that it broke: they are solved for anew
- * when the step is repeated. (d of the state is of no use for that: it is the one before its last bonds
- * broke.) A motion has its own; a run that has ended fails before it has changed anything. */
+/* Makes the measurement and the displacements invalid after a refused step, which may have solved for those
+ * without the bonds that it broke: they are found again when the step is repeated. (d of the state does not
+ * help: it is the one before its last bonds broke.) A motion has its own; a run that has ended fails before
+ * it has changed anything. */
 void event_refused (pg_solver *s)
 {
     event_stepping *e = events_of (s);
@@ -523,7 +523,7 @@ void event_refused (pg_solver *s)
     if (g) g->fresh = 0, g->needed = s->report.energy.fracture = g->needed0;
 }
 
-/* Event stepping may end at full load, at max_events or at a damage: the nearest end tells the progress. */
+/* Offers the ends of event stepping: full load, max_events or a damage; the nearest tells the progress. */
 void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
 {
     const pg_solver_options *o = &s->options;
@@ -542,8 +542,8 @@ void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
         progress_offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
 }
 
-/* The reason of an end that was found already, residuals, the first stiffness. *unit: 1: the displacement at
- * load factor 1 is kept too. */
+/* Keeps the reason of an end that was found already, residuals, the first stiffness. *unit 1: the
+ * displacement at load factor 1 is kept too. */
 static pg_status keep_ends (event_stepping *e, int *unit, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -556,7 +556,7 @@ done:
     return status;
 }
 
-/* These, and the displacements at load factor 1 (and 0). */
+/* Keeps these numbers, and the displacements at load factor 1 (and 0). */
 pg_status event_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -578,9 +578,8 @@ done:
     return status;
 }
 
-/* Equilibria of the bonds that live are at hand as those who solved them had them; they are solved once more
- * before the next step, as whatever solves them has to be made anew. Events found ahead are looked for
- * again. */
+/* Reads the equilibria of the present bonds as the earlier ranks had them; they are solved for again before
+ * the next step, as the solvers have to be made anew. Events found ahead are searched again. */
 pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved)
 {
     pg_status status = PG_OK;

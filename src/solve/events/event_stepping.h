@@ -8,22 +8,22 @@
 
 typedef struct {                                       /* state of `static` with stepping: event */
     double   *unit;                                    /* displacement at load factor 1 (ndof) */
-    double   *base;                                    /* affine loads: at load factor 0 (ndof); else NULL */
-    long      constant_events;  /* affine loads: events at a held load factor */
-    int       driven;  /* 1: the event of this step is one of them */
-    int       arrested;                                /* 1: after the event at hand nothing grows any more */
-    int       bears;  /* 1: the state at the start of this step bears its load */
+    double   *base;  /* affine loads: displacement at load factor 0 (ndof); else NULL */
+    long      constant_events;  /* affine loads: events at an unchanged load factor */
+    int       driven;  /* 1: the event of this step is one of these */
+    int       arrested;                                /* 1: nothing grows any more after this event */
+    int       bears;  /* 1: the state at the start of this step is in equilibrium with its load */
     double    unit_residual;                           /* of `unit` (and `base`) */
     event_solver *engine;  /* exact equilibria after breaks without a new factor; NULL: not used */
-    double    engine_residual;                         /* of the base of the engine */
+    double    engine_residual;                         /* residual of the base of `engine` */
     int       lost;  /* a step was refused: `unit` and `base` are first guesses only */
     pg_status ended;                                   /* no step can follow: the next one fails with this */
     char      why[1024];                               /* message of that failure */
-    int       balance_fresh;                           /* the work balance at hand is that of `unit` */
+    int       balance_fresh;                           /* 1: work_balance is that of `unit` */
     double    secant0;                                 /* first work per squared load factor, J */
     double    secant, top_factor;  /* work per squared load factor over secant0; largest load factor */
-    instability unstable;                              /* where growth goes on by itself */
-    struct event_ahead *ahead;                         /* events that were found together; NULL: never */
+    instability unstable;                              /* instabilities (growth without increase of load) */
+    struct event_ahead *ahead;                         /* events found ahead together; NULL: never */
 } event_stepping;
 static inline event_stepping *events_of (const pg_solver *s) { return s->own; }
 
@@ -35,62 +35,68 @@ pg_status event_keep  (pg_solver *s, const pg_keeper *k);
 pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved);
 void      event_ends  (const pg_solver *s, const pg_state *state, pg_progress *out);
 
-/* The equilibria for the bonds that live now: at load factor 1, of affine loads also at 0. */
+/* Finds the equilibria for the intact bonds: at load factor 1, for affine loads also at 0. */
 pg_status event_solve  (pg_solver *s);
-/* Work per squared load factor, of what grows with it: a stiffness under displacements, a compliance under
- * forces. After break_loop_account of the equilibria at hand. */
+/* Work per squared load factor of the loads that grow with it: a stiffness under displacements, a compliance
+ * under forces. Called after break_loop_account of the present equilibria. */
 pg_status event_secant (pg_solver *s, double *out);
 
-/* Looking ahead (event_ahead.c): finds the next events together, if it can, below this level; 1: some are
- * waiting; the bonds of the first of them die; the equilibrium after it becomes that of `unit`. */
+/* Looking ahead (event_ahead.c). ahead_look: finds the next events together, if it can, below this level.
+ * ahead_waits 1: some are waiting. ahead_kill: breaks the bonds of the first. ahead_take: the equilibrium
+ * after it becomes that of `unit`. */
 pg_status ahead_look   (pg_solver *s, pg_state *state, double level);
 int       ahead_waits  (const struct event_ahead *q);
-double    ahead_factor (const struct event_ahead *q, double *top);  /* load factor of the first that waits */
+/* load factor of the first one that waits */
+double    ahead_factor (const struct event_ahead *q, double *top);
 pg_status ahead_kill   (pg_solver *s, pg_state *state);
 pg_status ahead_take   (pg_solver *s);
-void      ahead_forget (struct event_ahead *q);        /* bonds broke otherwise */
-void      ahead_refused (struct event_ahead *q);       /* a step: nothing waits any more */
-void      ahead_tell   (pg_solver *s);                 /* for the report, once at the end */
+void      ahead_forget (struct event_ahead *q);        /* called if bonds broke otherwise */
+void      ahead_refused (struct event_ahead *q);  /* called if a step is refused: no event waits any more */
+void      ahead_tell   (pg_solver *s);                 /* reports at the end of the run */
 pg_status ahead_keep   (pg_solver *s, const pg_keeper *k);
 void      ahead_free   (struct event_ahead **q);
 
-/* Work up to the state at this load factor, whose displacement is that of event_displacement, and its stored
- * energy. Proportional loads: the balance of load factor 1, made once for the bonds that live (rest: by what
- * spares an equilibrium its evaluation), times the factor; energies are quadratic in it. */
+/* Finds the work up to the state at this load factor, whose displacement is that of event_displacement, and
+ * its stored energy. Proportional loads: the balance of load factor 1, made once for the intact bonds, times
+ * the factor; energies are quadratic in it. rest 1: an equilibrium, for which the force need not be
+ * evaluated. */
 pg_status event_account (pg_solver *s, const pg_state *state, double factor, int rest);
 
-/* Affine loads: where this step goes, *breaks: to break something there; *stops: to end the stage, since a
- * condition is met by what the last event has left behind, or by a gauge on the way. arrived: this step has
- * come up to where the state is. */
+/* Affine loads: finds the target load factor of this step. *breaks 1: something breaks there; *stops 1: the
+ * stage ends, as the state after the last event meets a condition, or a gauge on the way. arrived 1: this
+ * step has already come up to the present state. */
 pg_status affine_aim   (pg_solver *s, pg_state *state, double level, int arrived, double *factor, int *breaks,
                         int *stops);
-/* *stops: a state from which nothing goes on at a held load meets a condition of its stage. */
+/* *stops 1: a state from which nothing grows at an unchanged load meets a condition of its stage. */
 pg_status affine_meets (pg_solver *s, const pg_state *state, const double *reaction, int *stops);
 /* *end: load factor at which the next crack increment (facet) grows, at most that of full load. */
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
-/* A new crack is there with contact: the state is the equilibrium at the load of the event. */
+/* Called when a new crack has formed, with contact: the state becomes the equilibrium at the load of the
+ * event. */
 pg_status affine_stay (pg_solver *s, pg_state *state);
-/* With contact: accounts the way of a facet from before it to where the next one grows, at which
- * affine_next_growth has left the forces of contact, and back through all changes of status to the state
- * after it. */
+/* With contact: accounts the path of a facet from before it to where the next one grows, at which
+ * affine_next_growth has left the contact forces, and back through all changes of status to the state after
+ * it. */
 pg_status affine_account (pg_solver *s, pg_state *state, double end);
 
-/* break: facet: the measurement of tips is that of the equilibria at hand; proportional loads: the load
+/* break: facet: measures the tips at the present equilibria. event_next_growth, proportional loads: the load
  * factor of the next growth (INFINITY: none). */
 pg_status event_measure (pg_solver *s, const pg_state *state);
 pg_status event_next_growth (pg_solver *s, const pg_state *state, double *next);
-void      event_displacement (const pg_solver *s, double factor, double *d);         /* at a load factor */
-/* What stands for the equilibria before they are solved anew: what the state is. */
+void      event_displacement (const pg_solver *s, double factor, double *d);         /* d at a load factor */
+/* Sets unit and base, before equilibria are solved anew, from the state. */
 void      event_equilibrium_lost (pg_solver *s, const pg_state *state);
-/* At rest at this factor, once more: displacement, work balance, reactions; may end the run. */
+/* Finds displacement, work balance and reactions of the static state at this factor again; may end the
+ * run. */
 pg_status event_rest   (pg_solver *s, pg_state *state, double factor);
-/* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
+/* Records the outcome of the equilibrium after an event; returns 1 where there is none, and the next step
+ * reports why. */
 int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
-/* Ends the run when the crack has arrived at stop.set, or the body has separated. */
+/* Ends the run when the crack has arrived at stop.set, or the body has come apart. */
 pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);
-/* After event_stops: energies of a body that has come apart under forces, whose equilibria lie anywhere. Work
- * and stored energy are those of before the event; what was stored is taken as consumed. cut: the solve has
- * found no equilibrium, and the body is cut in two. 1: it has come apart. */
+/* Called after event_stops: energies of a body that has come apart under forces and has no unique
+ * equilibrium. Work and stored energy are those before the event; the stored energy counts as dissipated. cut
+ * 1: the solve has found no equilibrium, and the body is cut in two. Returns 1 if it has come apart. */
 int       event_apart  (pg_solver *s, int cut, double work, double strain, pg_step *step);
-void      event_limit  (pg_solver *s, const pg_state *state, double factor);           /* solver.max_events */
+void      event_limit  (pg_solver *s, const pg_state *state, double factor);  /* ends at solver.max_events */
 #endif

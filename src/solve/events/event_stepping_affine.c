@@ -2,8 +2,8 @@
  * The next event under loads that are a constant part and factor lambda times another: between breaks d = d_0
  * + lambda (d_1 - d_0), with two equilibria, at lambda = 0 and 1. Every utilisation is convex in lambda (a
  * length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval
- * of lambda: from a place that all bonds admit there is one way out to each side, found by chords of every
- * bond and then by regula falsi on the largest. After a break no place at or below the present factor may be
+ * of lambda: from a factor that all bonds admit there is one limit to each side, found by chords of every
+ * bond and then by regula falsi on the largest. After a break no factor at or below the present one may be
  * left: then the constant part drives the crack, the factor is held and the worst bonds break one after the
  * other.
  *
@@ -18,10 +18,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double close = 1e-12;                     /* of utilisation to its limit */
+static const double close = 1e-12;                     /* utilisation this close to its limit is at it */
 enum { MOST_LOOKS = 80, MOST_THIRDS = 52 };
 
-/* Utilisation of every bond at this factor; *top the largest. Of facets the largest alone. */
+/* Finds the utilisation of every bond at this factor; *top: the largest. With facets: the largest alone. */
 static pg_status look (pg_solver *s, pg_state *state, double factor, double *utilisation, double *top)
 {
     pg_status status = PG_OK;
@@ -40,8 +40,8 @@ done:
     return status;
 }
 
-/* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not
- * (b->utilisation). */
+/* The factor at which the first chord reaches the limit: all bonds are below it at `in` (b->factor), some are
+ * not at `out` (b->utilisation). */
 static double first_chord (const pg_solver *s, const pg_state *state, double in, double out)
 {
     const break_loop *b = &s->break_loop;
@@ -52,8 +52,8 @@ static double first_chord (const pg_solver *s, const pg_state *state, double in,
     return in - system_most (&b->system, -share) * (out - in);
 }
 
-/* The way out between a factor that all bonds admit (but for rounding) and one that some do not;
- * b->utilisation is that of *factor. Regula falsi after Illinois. */
+/* Finds the limit between a factor that all bonds admit (but for rounding) and one that some do not;
+ * b->utilisation is that at *factor. Regula falsi, Illinois variant. */
 static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, double *factor)
 {
     pg_status status = PG_OK;
@@ -83,20 +83,20 @@ done:
     return status;
 }
 
-/* The least that a convex function can be between the first and the last of four places at equal distances
- * where it has these values: it lies above each chord outside of it, so in the middle third above the outer
- * chords, in an outer third above the chord of the middle one. */
+/* Lower bound of a convex function between the first and the last of four equidistant points with these
+ * values: outside of its chord the function lies above it, so in the middle third above the outer chords, in
+ * an outer third above the middle chord. */
 static double least_of_convex (const double f[4])
 {
     double outer = fmin (2 * f[1] - f[2], 2 * f[2] - f[1]);
-    double fall = f[1] - f[0], rise = f[3] - f[2];         /* of the outer chords, in a third */
+    double fall = f[1] - f[0], rise = f[3] - f[2];         /* change over an outer third, by its chord */
     if (!(fall < 0 && rise > 0)) return fmin (outer, fmin (f[1], f[2]));
-    double x = (f[2] - rise - f[1]) / (fall - rise);       /* where they meet, in thirds behind the first */
+    double x = (f[2] - rise - f[1]) / (fall - rise);  /* their intersection, in thirds from the first one */
     return fmin (outer, f[1] + fall * fmin (fmax (x, 0), 1));
 }
 
-/* A factor between `low` and `from` that all bonds admit, though these are none: thirds of a convex function,
- * the values being known at both ends. *found 0: there is none. */
+/* Searches a factor between `low` and `from` that all bonds admit, though these two are not admitted:
+ * division in thirds of a convex function that is known at both ends. *found 0: there is none. */
 static pg_status search (pg_solver *s, pg_state *state, double low, double from, double at_zero,
                          double at_from, double *at, int *found)
 {
@@ -118,7 +118,7 @@ done:
     return status;
 }
 
-/* Nothing below this factor bears its loads either. Told once. */
+/* Warns once that the constant loads drive the crack: it does not rest at any lower factor either. */
 static void tell_driven (pg_solver *s, const pg_state *state, double factor)
 {
     int facets = s->break_loop.growth != NULL;
@@ -135,7 +135,8 @@ static void tell_driven (pg_solver *s, const pg_state *state, double factor)
 /* ---- stretches between changes of status --------------------------------------------------------------- */
 static struct system_contact *contact_of (const pg_solver *s) { return s->break_loop.system.contact; }
 
-/* base and unit become the line that leads on from here. *leapt: forces and gaps have leapt at its start. */
+/* Makes base and unit those of the line that leads on from here. *leapt 1: forces and gaps jumped at its
+ * start. */
 static pg_status stretch_ahead (pg_solver *s, int *leapt)
 {
     pg_status status = PG_OK;
@@ -150,9 +151,10 @@ done:
     return status;
 }
 
-/* Back from a facet that lets the crack not rest: down in total form from where the state is to the first
- * stretch in which it rests, or the start of the stage. *in: where it rests, *out: where it does not, both in
- * the stretch at hand. account: work of all changes on the way; else they are marked. */
+/* Goes back from a facet after which the crack does not rest: down in total form from the present state to
+ * the first stretch in which it rests, or the start of the stage. *in: factor at which it rests, *out: at
+ * which it does not, both in that stretch. account 1: accounts the work of all changes on the way; 0: marks
+ * them. */
 static pg_status stretches_back (pg_solver *s, pg_state *state, int account, double *in, double *out,
                                  int *found)
 {
@@ -183,7 +185,7 @@ done:
     return status;
 }
 
-/* Where nothing lets the crack rest, back to where the state was, by the marks from that of it on. */
+/* Goes back to the state of mark `first` by all marks after it, where the crack rests nowhere. */
 static pg_status back_to_mark (pg_solver *s, pg_state *state, size_t first, int account)
 {
     pg_status status = PG_OK;
@@ -197,7 +199,7 @@ done:
     return status;
 }
 
-/* The factor below that of the state at which the crack rests, and no stretch above it lets it rest. */
+/* Finds the largest factor below that of the state at which the crack rests. */
 static pg_status rest_below (pg_solver *s, pg_state *state, double *factor, int *found)
 {
     pg_status status = PG_OK;
@@ -219,7 +221,8 @@ done:
 }
 
 /* ---- the next event ------------------------------------------------------------------------------------ */
-/* The loads in which the crack rests below the present one, where it does not; else the load is held. */
+/* Finds the load below the present one at which the crack rests, where it does not rest now; else the load is
+ * held. */
 static pg_status fall_back (pg_solver *s, pg_state *state, double top, double *factor)
 {
     pg_status status = PG_OK;
@@ -241,8 +244,9 @@ done:
     return status;
 }
 
-/* Where the next bonds break, or pieces change their status, or the next level; *breaks: something breaks
- * there. b->utilisation is that of *factor. arrived: this step has come up to where the state is. */
+/* Finds the factor at which the next bonds break, pieces change their status, or the next level is reached;
+ * *breaks 1: something breaks there. b->utilisation is that at *factor. arrived 1: this step has come up to
+ * the present state. */
 static pg_status choose (pg_solver *s, pg_state *state, double level, int arrived, double *factor,
                          int *breaks)
 {
@@ -269,19 +273,20 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, int arrive
     if (top <= 1 + close) {
         if (state->step == 0) goto done;
         PG_TRY (look (s, state, level, b->utilisation, &there));
-        if (there <= fmax (top, 1) + close) goto done;     /* rounding alone drives no crack */
+        if (there <= fmax (top, 1) + close) goto done;     /* at rounding level no crack is driven */
         *breaks = 1;
         status = way_out (s, state, now, level, factor);
         goto done;
     }
     *breaks = 1, *factor = now;
-    /* it rested a moment ago, and what is known of it has changed with a status */
+    /* if it rested a moment ago, a change of status has altered what is known of it */
     if (!arrived) status = fall_back (s, state, top, factor);
 done:
     return status;
 }
 
-/* From stretch to stretch, as if the run went on, but for the work: marks are left on the way. */
+/* Goes from stretch to stretch like the run, without accounting work, to where the next facet grows; sets
+ * marks. */
 static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *end)
 {
     pg_status status = PG_OK;
@@ -311,7 +316,7 @@ static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *
         PG_TRY (contact_route_go (sys, *end));
         PG_TRY (contact_route_mark (sys));
     }
-    /* it comes to rest: the load stays, and the facet takes what it takes there */
+    /* the crack comes to rest: the load stays, and so does the facet's energy at this load */
     if (!(here > 1) && !(there > 1)) {
         events_of (s)->arrested = 1, *end = now;
         contact_route_return (sys, 0, state->d);
@@ -348,7 +353,8 @@ done:
     return status;
 }
 
-/* From a place where something is over its limit the way is back, if there is one; it ends here else. */
+/* *end: factor at which the next facet grows; from a state over its limit downwards, if the crack rests
+ * there; else the present factor. */
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end)
 {
     pg_status status = PG_OK;
@@ -365,7 +371,7 @@ done:
     return status;
 }
 
-/* A state from which nothing goes on at a held load: conditions of a stage may be asked of it. */
+/* 1: nothing grows on from this state at a held load, so that conditions of a stage may be checked. */
 static int rests (const event_stepping *e) { return !e->driven && !e->unstable.held; }
 
 pg_status affine_meets (pg_solver *s, const pg_state *state, const double *reaction, int *stops)

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The group of bonds that events are looked for in: around places near their limit, by steps from node to
- * node through families, which are of the size of what a break can reach, whatever the spacing and the
- * dimension. Nodes at the ends of such bonds are level 0, nodes in their families level 1, and so on; a point
- * has the least level of the nodes that it sees. */
+ * The group of bonds in which events are looked for: around points near their limit, by steps from node to
+ * node through families, which are as large as the reach of a break for every spacing and dimension. Nodes at
+ * the ends of bonds near their limit have level 0, nodes in their families level 1, and so on; a point has
+ * the smallest level of its neighbours. */
 #include "event_ahead.h"
 #include <string.h>
 
-/* Levels of the inner part: the more, the more events fit into a group; the fewest, where a body is so small
- * that a wide group would hold most of it, as solids often are. */
+/* Largest number of levels of the inner part: more events fit into a wide group, but in a small body, as 3D
+ * bodies often are, it would hold most bonds. FAR: a level that was not reached. */
 enum { WIDEST_INNER = 2, FAR = 255 };
 
-/* Families beyond the inner part that a break there can touch: the points that see a touched node; with
- * consistent integration also those of the cells beside. */
+/* Levels beyond the inner part that a break there can touch: points with a touched node in their family; with
+ * consistent integration also those of neighbouring cells. */
 static int beyond (const pg_problem *p) { return p->form.integration->consistent ? 3 : 1; }
 
 void event_zone_clear (event_zone *z)
@@ -34,7 +34,7 @@ done:
     return status;
 }
 
-/* Levels of all nodes from the ends of the bonds near their limit. */
+/* Sets the levels of all nodes, from the ends of the bonds near their limit. */
 static void spread (event_zone *z, const pg_problem *p, const pg_state *state, const double *near, double cut)
 {
     int *now = z->front, *next = z->front + p->cloud.n;
@@ -61,7 +61,7 @@ static void spread (event_zone *z, const pg_problem *p, const pg_state *state, c
     }
 }
 
-/* Least level that a point sees. */
+/* Smallest level of a point's neighbours. */
 static int level_of (const event_zone *z, const pg_family *f, size_t p)
 {
     int least = FAR;
@@ -70,7 +70,7 @@ static int level_of (const event_zone *z, const pg_family *f, size_t p)
     return least;
 }
 
-/* Bonds of the points up to this level, which are marked; how many. */
+/* Marks the bonds of the points up to this level and what lies beyond; returns how many. */
 static size_t mark_bonds (event_zone *z, const pg_problem *p, int inner)
 {
     size_t n = 0;
@@ -88,9 +88,9 @@ static size_t mark_bonds (event_zone *z, const pg_problem *p, int inner)
     return n;
 }
 
-/* All bonds of the points up to the outer level, from the levels of the nodes; they are counted first. A node
- * is in the inner part by its own level, as all that see it must be in the group. The inner part is the
- * widest of which the group holds no more bonds than `most`. */
+/* Makes the group: all bonds of points up to the outer level, from the levels of the nodes; they are counted
+ * first. A node is in the inner part by its own level, as all points with it in their family must be in the
+ * group. The inner part is the widest for which the group has at most the share `most` of the bonds. */
 pg_status event_zone_fill (event_zone *z, const pg_system *sys, double most, double *share)
 {
     pg_status status = PG_OK;
@@ -125,7 +125,8 @@ done:
     return status;
 }
 
-/* Bonds are owned by points, and a break changes the shape functions of the owner alone. */
+/* 1: bond k of the group may break: its point, whose shape functions alone it changes, is in the inner
+ * part. */
 int event_zone_inner (const event_zone *z, size_t k)
 {
     int set = 0;

@@ -4,14 +4,15 @@
  * lambda_k+1, where the next begins, so that it dissipates lambda_k lambda_k+1 times the drop at load
  * factor 1. At a fixed load the same facet would take more under forces, less under displacements: that
  * jump is not the equilibrium path. Where all that grew has ended in the surface or a crack there is no
- * such lambda_k+1: the way ends where the facet has taken its energy. So it does, with contact, where the
- * crack comes to rest, as one that is unloaded does: what lies between is no way of the crack. */
+ * such lambda_k+1: the path ends where the facet has taken its energy. So it does, with contact, where the
+ * crack comes to rest, as one that is unloaded does: what lies between is no path of the crack. */
 #include "event_stepping.h"
 #include "solve/growth/facet_growth.h"
 #include <math.h>
 #include <string.h>
 
-/* Equilibria for the bonds that live now; a body cut in two may have none, which ends the run. */
+/* Finds the equilibria for the present bonds; a body cut in two may have none, which ends the run (*ended
+ * 1). */
 static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *ended)
 {
     pg_status status = PG_OK;
@@ -24,7 +25,7 @@ static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *
     if (event_ended (s, state, factor, now)) {
         *ended = 1;
         if (!b->growth->event.closed) {
-            b->growth->needed -= b->growth->event.energy;   /* nothing tells what they took */
+            b->growth->needed -= b->growth->event.energy;   /* their energy is not known */
             s->report.energy.fracture = b->growth->needed;
             goto done;
         }
@@ -41,8 +42,8 @@ done:
     return status;
 }
 
-/* Where the next facet begins, at most at full load; where none does, the load stays. A load that is held
- * does not fall. A new crack comes into being at once, at the load at which it is possible: no equilibria
+/* *end: load factor at which the next facet begins, at most full load; the present one where none does. A
+ * held load does not fall. A new crack forms at once, at the load at which it is possible, as no equilibria
  * lead there. */
 static pg_status way_end (pg_solver *s, pg_state *state, double factor, double *end)
 {
@@ -65,8 +66,8 @@ done:
     return status;
 }
 
-/* Works along the way from before the event at `factor` to after it at `end`, then back to `factor`: elastic,
- * and therefore without effect on what was dissipated. */
+/* Accounts the work along the path from before the event at `factor` to after it at `end`, then back to
+ * `factor`, which is elastic and has no effect on the dissipated energy. */
 static pg_status account (pg_solver *s, pg_state *state, double factor, double end)
 {
     pg_status status = PG_OK;
@@ -80,16 +81,16 @@ done:
     return status;
 }
 
-/* What is set free beyond what the facets of the event take does not stay in the body, where nothing goes on:
- * it would be motion, and is no work of the loads at rest. */
+/* Takes energy released beyond that of the event's facets out of the work where nothing grows on: it would be
+ * motion, and is no work of static loads. */
 static void take_no_more (pg_solver *s, pg_step *step)
 {
     double more = step->dissipated - s->break_loop.growth->event.energy;
     if (more > 0) s->break_loop.work -= more, step->dissipated -= more;
 }
 
-/* What is set free by a trial facet that cuts a loaded part off has no bound, and the load at which it does
- * so is that of rounding. */
+/* Warns of a trial facet that cuts a loaded part off: its energy release has no bound, and its load is that
+ * of rounding. */
 static void doubt_load (pg_solver *s, pg_step *step)
 {
     if (!s->break_loop.growth->event.tried) return;
@@ -99,7 +100,7 @@ static void doubt_load (pg_solver *s, pg_step *step)
                         "ring: the load that this part bears is not known; take a smaller spacing");
 }
 
-/* After event_stops: has the body come apart? */
+/* Ends the run after event_stops if the body has come apart. */
 static void end_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
 {
     if (!event_apart (s, cut, work, strain, step)) return;
@@ -107,8 +108,8 @@ static void end_apart (pg_solver *s, int cut, double work, double strain, pg_ste
     doubt_load (s, step);
 }
 
-/* One event: facets, new equilibria, a new measurement, energies. Of the state the displacement stays that of
- * before, which belongs to the reactions of the step. */
+/* Makes one event: facets, new equilibria, a new measurement, energies. The displacement of the state stays
+ * that before the event, to which the reactions of the step belong. */
 static pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where growth goes on by itself: after an event of a static run, bonds or tips are over their limit at the
+ * Instabilities: after an event of a static run, bonds or tips are over their limit at the
  * very load at which it happened. What follows is chosen by solver.on_instability:
  *   follow   the load falls until the next bond is at its limit: the path of equilibria, snap-back included
  *            (event_stepping.c, event_stepping_affine.c). No body under a controlled load does this.
  *   hold     the load stays, and the worst bonds break, one event after the other, until the body bears it:
  *            the limit of fixed load steps as they become small.
  *   dynamic  the load stays and the body moves, by Newmark's method from the displacements before the event,
- *            at rest, without the bonds that the event broke. Displacements are continuous there, and with
+ *            from rest, without the bonds that the event broke. Displacements are continuous there, and with
  *            them the reactions; what the broken bonds stored is gone.
  * The motion runs in equal time steps until no bond has broken for a while (quiet). Then it settles: mass
  * damping c = 10 / dt, beta = 1 and gamma = 3/2 (spectral radius 0 at infinite steps), dt doubled in every
@@ -24,15 +24,15 @@
 #include <string.h>
 
 enum { PHASE_REST, PHASE_RUNNING, PHASE_SETTLING };
-/* Steps of settling, and how often dt is doubled in them: at most by 2^16, so that the mass still holds what
- * no bond holds. */
+/* Most steps of settling; how often dt is doubled in them: by 2^16 at most, so that the mass still holds
+ * nodes without bonds. */
 enum { MOST_SETTLING = 45, MOST_DOUBLINGS = 16 };
-static const double calm = 1e-18;                      /* of the strain energy */
-static const double at_limit = 1e-12;                  /* of a utilisation to 1 */
+static const double calm = 1e-18;                      /* share of the strain energy */
+static const double at_limit = 1e-12;                  /* difference of a utilisation from 1 */
 
 /* ---- start --------------------------------------------------------------------------------------------- */
-/* Where the scene leaves them open, times follow from the fastest wave: a step is half of what it takes from
- * a point to the next, quiet is its way through the body and back. */
+/* Chooses the times that the scene leaves open by the fastest wave: a time step is half its time from a point
+ * to the next, quiet its time through the body and back. */
 static pg_status choose_times (const pg_solver *s, instability *u)
 {
     pg_status status = PG_OK;
@@ -53,7 +53,7 @@ done:
     return status;
 }
 
-/* Room for the motion is made only where there may be one. */
+/* Allocates the motion only where there may be one. */
 pg_status instability_start (pg_solver *s, instability *u)
 {
     pg_status status = PG_OK;
@@ -80,7 +80,8 @@ void instability_free (instability *u)
 int instability_moves (const instability *u) { return u->phase != PHASE_REST; }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
-/* The scheme of the phase at hand; a function of the phase alone, so that a run read back has the same. */
+/* Sets the scheme of the present phase, a function of the phase alone, so that a run read back has the
+ * same. */
 static void set_scheme (const pg_solver *s, instability *u)
 {
     newmark *n = &u->scheme;
@@ -92,8 +93,8 @@ static void set_scheme (const pg_solver *s, instability *u)
     n->setting.rayleigh_mass = fmax (n->setting.rayleigh_mass, 10 / n->dt);
 }
 
-/* Another phase, another matrix. How the systems of rest and of running motion are solved is remembered: they
- * were tried. Settling goes from one to the other, and is solved as rest is. */
+/* Enters a phase, which has another matrix. How systems were solved in statics and in running motion is
+ * remembered. Settling goes from one to the other, and is solved as statics is. */
 static void enter (pg_solver *s, instability *u, int phase)
 {
     pg_system *sys = &s->break_loop.system;
@@ -127,7 +128,7 @@ void instability_before (const pg_solver *s, instability *u, const pg_state *sta
         memcpy (u->before, state->d, state->ndof * sizeof *u->before);
 }
 
-/* The largest change of a reaction at a switch, over the largest reaction. */
+/* Updates the largest change of a reaction at a switch of phases, over the largest reaction. */
 static void compare_reactions (pg_solver *s, const double *before, const double *after)
 {
     double size = 0, change = 0;
@@ -140,7 +141,8 @@ static void compare_reactions (pg_solver *s, const double *before, const double 
     if (size > 0) s->report.unstable.jump = fmax (s->report.unstable.jump, change / size);
 }
 
-/* From the displacements before the event, at rest, without the bonds that it broke. */
+/* Begins a motion from the displacements before the event, with zero velocity, without the bonds that it
+ * broke. */
 static pg_status begin (pg_solver *s, instability *u, pg_state *state, double factor)
 {
     pg_status status = PG_OK;
@@ -164,7 +166,7 @@ done:
     return status;
 }
 
-/* The largest utilisation of bonds, or of facets, in the equilibrium after the event. */
+/* *top = largest utilisation of bonds, or of facets, in the equilibrium after the event. */
 static pg_status look_at_rest (pg_solver *s, instability *u, pg_state *state, double factor, double *top)
 {
     pg_status status = PG_OK;
@@ -183,7 +185,7 @@ done:
     return status;
 }
 
-/* No equilibrium, or one that bonds do not bear: motion. */
+/* Begins a motion where there is no equilibrium after the event, or one with bonds over their limit. */
 pg_status instability_after (pg_solver *s, instability *u, pg_state *state, double factor, pg_status solved,
                              int *moves)
 {
@@ -202,7 +204,7 @@ done:
 }
 
 /* ---- in motion ----------------------------------------------------------------------------------------- */
-/* What Rayleigh's damping takes in a step, J: dt v C v at the mean velocity. */
+/* Energy that Rayleigh damping dissipates in a step, J: dt v C v at the mean velocity. */
 static double damped (newmark *n, const pg_state *from, const pg_state *state)
 {
     double sum = 0, *mean = n->work1, *force = n->work3;
@@ -214,7 +216,7 @@ static double damped (newmark *n, const pg_state *from, const pg_state *state)
     return sum;
 }
 
-/* Energies after a time step, and where what is missing went. */
+/* Finds the energies after a time step and assigns the missing energy to damping or to breaking. */
 static void balance_energy (pg_solver *s, instability *u, const pg_state *state, int broke, pg_step *step)
 {
     break_loop *b = &s->break_loop;
@@ -224,8 +226,8 @@ static void balance_energy (pg_solver *s, instability *u, const pg_state *state,
     double lost = b->work - b->work0 - (r->energy.strain + r->energy.kinetic - b->stored0);
     int opening = b->growth && b->growth->motion.start.nhold > 0;
     double taken = broke || opening ? damped (&u->scheme, s->backup, state) : lost;
-    /* Steps of settling stop the body within one: dt v C v is far above what there is to lose, and facets
-     * never give energy to the body. */
+    /* steps of settling stop the body within one step: dt v C v is far above the energy available, and facets
+     * never feed energy into the body */
     if (b->growth && u->phase == PHASE_SETTLING) taken = fmin (taken, lost);
     r->energy.damping += taken;
     step->dissipated = lost - taken;
@@ -233,8 +235,8 @@ static void balance_energy (pg_solver *s, instability *u, const pg_state *state,
     u->dissipated += step->dissipated, u->needed += b->growth->needed - b->growth->needed0;
 }
 
-/* What facets do not take goes into the motion, in waves as short as the spacing. Said once, with the numbers
- * of the last motion. */
+/* Warns once, with the numbers of the last motion, where facets dissipated less than their area takes: the
+ * rest is in waves as short as the spacing. */
 static void compare_energies (pg_solver *s, const instability *u)
 {
     static const char words[] = "in motion facets dissipate";
@@ -251,7 +253,7 @@ static void compare_energies (pg_solver *s, const instability *u)
     else pg_statistics_warn (r, "%s", text);
 }
 
-/* Energy above the equilibrium u->rest, J; of ranks that share the body their shares. */
+/* Energy above the equilibrium u->rest, J; of a rank its share. */
 static double excess (const pg_solver *s, instability *u, const pg_state *state)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -262,8 +264,8 @@ static double excess (const pg_solver *s, instability *u, const pg_state *state)
     return sum + newmark_kinetic (&u->scheme, state->v);
 }
 
-/* Is there an equilibrium to settle to, with the bonds that live? If not, the motion goes on, and ends the
- * run when it has lasted as long as it may. */
+/* Finds the equilibrium to settle to with the present bonds. If there is none the motion goes on, and ends
+ * the run when it has lasted as long as it may. */
 static pg_status try_to_settle (pg_solver *s, instability *u, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -292,8 +294,8 @@ done:
     return status;
 }
 
-/* Static again: the equilibrium takes the place of the state, which differs by less than rounding of forces;
- * what it lacks in energy counts as damped. */
+/* Makes the run static again: the equilibrium replaces the state, from which it differs by less than rounding
+ * of forces; the difference in energy counts as damped. */
 static pg_status come_to_rest (pg_solver *s, instability *u, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -313,7 +315,7 @@ done:
     return status;
 }
 
-/* What the next step is: one of the same phase, of another, or a static one. */
+/* Chooses the phase of the next step: the same, another one, or statics. */
 static pg_status next_phase (pg_solver *s, instability *u, pg_state *state, int broke)
 {
     pg_status status = PG_OK;
@@ -339,7 +341,7 @@ done:
     return status;
 }
 
-/* The load stays; a step in which bonds broke counts as an event. */
+/* Makes a time step at the present load; one in which bonds broke counts as an event. */
 pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -405,8 +407,8 @@ done:
     return status;
 }
 
-/* A body in motion stays with the processes that it has: its two phases, and how each was solved, belong to
- * one division. */
+/* Reads what another division into ranks kept; refused while the body is in motion, as its phases and how
+ * each was solved belong to one division. */
 pg_status instability_moved (pg_solver *s, instability *u, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -453,7 +455,7 @@ static const pg_key keys[] = {
 enum { KEYS = sizeof keys / sizeof *keys };
 const pg_key_table instability_keys = { "solve", keys, KEYS };
 
-/* What a motion needs: density, and a force that moves by linear systems. */
+/* Checks what a motion needs: density, and a force that moves by linear systems. */
 static void check_motion (const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);

@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-/* At the bound itself a motion would never die. */
+/* At the bound itself the motion would not decay. */
 static const double margin = 1.02;
 
-/* sum_j |K_ij| from the upper triangle */
+/* sum[i] = sum_j |K_ij|, N/m, from the upper triangle of K */
 static pg_status sum_rows (pg_system *sys, double *sum)
 {
     pg_status status = PG_OK;
@@ -30,8 +30,8 @@ done:
     return status;
 }
 
-/* Masses from the sums of rows of the stiffness: with dt = 1 the largest frequency is at most 2, so that
- * every mass is as small as stability allows and all parts of the body move about equally fast. */
+/* Finds masses from the sums of rows of the stiffness: with dt = 1 the largest frequency is at most 2, so
+ * that every mass is as small as stability allows and all parts of the body move about equally fast. */
 static pg_status weigh (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -50,8 +50,9 @@ done:
     return status;
 }
 
-/* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and
- * are weighed anew, as are bodies whose bonds leave faces that touch. */
+/* Sets time step and masses. Forces that give the sums of their rows only soften when bonds break; with
+ * others breaking may stiffen the body, and masses are found again after it, as where bonds leave faces that
+ * touch. */
 static pg_status prepare (pg_solver *s)
 {
     pg_status status = PG_OK;

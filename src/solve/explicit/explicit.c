@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What explicit dynamics and relaxation have in common: supports, loads, forces with breaking, rows and
- * levels. */
+ * What explicit dynamics and dynamic relaxation have in common: supports, loads, forces with breaking, rows
+ * and levels. */
 #include "solve/contact/contact.h"
 #include "explicit.h"
 #include "solve/growth/facet_growth.h"
@@ -10,7 +10,8 @@
 enum { BLOCK = 2048 };
 
 /* ---- supports ------------------------------------------------------------------------------------------ */
-/* The rows of T without an entry; T must select: one entry a column, which is 1. */
+/* Finds the prescribed unknowns: rows of T without an entry. T must select: one entry a column, which is
+ * 1. */
 static pg_status find_prescribed (pg_solver *s, const pg_sparse *T, size_t ndof)
 {
     pg_status status = PG_OK;
@@ -28,7 +29,7 @@ static pg_status find_prescribed (pg_solver *s, const pg_sparse *T, size_t ndof)
                      kind);
         is_free[T->row[T->start[j]]] = 1;
     }
-    /* ghosts follow their owners, whatever is prescribed there */
+    /* ghosts get the values of their owners, whatever is prescribed there */
     for (size_t i = 0; i < ndof; i++) is_free[i] |= !pg_cloud_owns (&s->problem->cloud, i / components);
     for (size_t i = 0; i < ndof; i++) m->nprescribed += !is_free[i];
     PG_ALLOC (m->prescribed, m->nprescribed);
@@ -46,7 +47,7 @@ static int has_forces (const pg_problem *p)
     return 0;
 }
 
-/* Supports that act like springs (penalty, Nitsche): their work is known to the force alone. */
+/* 1: some support acts like a spring (penalty, Nitsche), whose work only the force can find. */
 static int has_springs (const pg_problem *p)
 {
     for (size_t l = 0; l < p->boundary.nload; l++)
@@ -71,7 +72,7 @@ pg_status explicit_create (pg_solver *s)
     m->before = m->lists, m->goal = m->before + m->nprescribed, m->next = m->goal + m->nprescribed;
     PG_ALLOC (m->push, 3 * m->nprescribed);
     m->push0 = m->push + m->nprescribed, m->left = m->push0 + m->nprescribed;
-    /* supports of shape functions do work elsewhere than at the unknowns that they prescribe */
+    /* with shape functions supports do work elsewhere than at the unknowns that they prescribe */
     int by_unknowns = force->loads && !force->method.shape_functions;
     if (by_unknowns && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
     m->by_work_balance = !by_unknowns && force->work
@@ -96,15 +97,15 @@ void explicit_free (pg_solver *s)
         pg_free (m->sum), pg_free (m->broke);
 }
 
-/* Prescribed unknowns do not take part in the loops over all unknowns: without velocity the loops leave
- * them where they are. */
+/* Keeps prescribed unknowns out of the loops over all unknowns: without velocity these leave them where they
+ * are. */
 void explicit_release (pg_solver *s, pg_state *state)
 {
     const motion *m = motion_of (s);
     for (size_t k = 0; k < m->nprescribed; k++) state->v[m->prescribed[k]] = state->a[m->prescribed[k]] = 0;
 }
 
-/* The prescribed displacements at time t, taken out of a full vector. */
+/* out = prescribed displacements at time t, m (nprescribed). */
 static pg_status gather (pg_solver *s, double t, double *out)
 {
     pg_status status = PG_OK;
@@ -117,14 +118,14 @@ done:
     return status;
 }
 
-/* Three instants of the supports, t_n-1, t_n and t_n+1, give their velocity and acceleration by
- * differences. In step after step two of them are at hand already. */
+/* Positions of the supports at t_n-1, t_n and t_n+1 give their velocity and acceleration by differences. From
+ * the step before two of the three are at hand. */
 pg_status explicit_follow (pg_solver *s, double before, double now, double next)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
-    if (m->fresh) {  /* they come from the step before: one evaluation is enough */
+    if (m->fresh) {  /* two come from the step before: one evaluation is enough */
         double *first = m->before;
         m->before = m->goal, m->goal = m->next, m->next = first;
     } else {
@@ -139,8 +140,8 @@ done:
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
-/* Bonds that died within the evaluation of the force: state and log follow. Those of ghosts are counted where
- * they are owned. */
+/* Updates state and log for bonds that broke within the evaluation of the force; *own: those of points owned
+ * here, as ghosts are counted by their owners. */
 static pg_status remove_broken (pg_solver *s, pg_state *state, double t, size_t *own)
 {
     pg_status status = PG_OK;
@@ -163,7 +164,7 @@ done:
     return status;
 }
 
-/* By the utilisation of all bonds; the caches are brought in line with those that died. */
+/* Breaks bonds by the utilisation of all; the force refreshes its caches. */
 static pg_status break_by_utilisation (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
@@ -180,15 +181,15 @@ done:
     return status;
 }
 
-/* Do slips follow every evaluation? Stages that are held keep those of the last one until they are balanced:
- * what swings on the way to a balance is no way of loading. */
+/* Do slips of crack faces follow every evaluation? In held stages they are those of the last balanced state:
+ * oscillation on the way to balance is no loading. */
 static int follows (const pg_solver *s)
 {
     return !(s->options.flags & PG_SOLVER_STAGED) || !PG_OWN (pg_stages_options, &s->options)->hold;
 }
 
-/* Ranks: which time steps of the row at hand are looked at together when it ends? None where one process has
- * the whole body, or where stages are held. */
+/* 1: ranks compare the time steps of a row together when it ends; not where one process has the whole body or
+ * stages are held. */
 static int row_is_shared (const pg_solver *s)
 {
     return system_is_shared (&s->break_loop.system) && !(s->options.flags & PG_SOLVER_STAGED);
@@ -204,8 +205,8 @@ done:
     return status;
 }
 
-/* That a bond broke here in this time step is remembered until the row ends, when all ranks count the steps
- * in which one broke anywhere (share_row). */
+/* Records that a bond broke here in this time step until the row ends, when all ranks count the steps in
+ * which one broke anywhere (share_row). */
 static pg_status note_break (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -240,7 +241,7 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     size_t own = 0;
     if (force->motion.balance_and_break) {
         PG_TRY (remove_broken (s, state, t, &own));
-        /* in relaxation bonds leave faces that may touch */
+        /* in relaxation broken bonds leave faces that may touch */
         if (own && (s->options.flags & PG_SOLVER_QUASI_STATIC))
             PG_TRY (contact_refresh (sys, state, &b->changes));
     }
@@ -259,7 +260,7 @@ done:
     return status;
 }
 
-/* Blocks are summed in order, whatever thread had them: the same bits for any number of threads. */
+/* Adds up the sums of blocks in order, whatever thread made them: the same bits for any number of threads. */
 void explicit_total (const pg_solver *s, double *sum)
 {
     const motion *m = motion_of (s);
@@ -286,7 +287,8 @@ pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
 }
 
 /* ---- rows and levels ----------------------------------------------------------------------------------- */
-/* Rows of history.csv: as asked for, else a tenth of the steps, 100 to 1000; a multiple of the levels. */
+/* Number of rows of history.csv: as asked for, else a tenth of the steps, 100 to 1000; a multiple of the
+ * levels. */
 static long rows_of (const pg_solver_options *o, long total)
 {
     long rows = o->rows > 0         ? o->rows
@@ -297,11 +299,11 @@ static long rows_of (const pg_solver_options *o, long total)
     return levels * (rows > levels ? rows / levels : 1);
 }
 
-/* Step at which row j of n ends. */
+/* Time step at which row j of n ends. */
 static long row_end (long j, long n, long total) { return (j * total + n - 1) / n; }
 
-/* Explicit runs have far more time steps than anybody wants rows: steps of the solver are rows, each many
- * time steps. */
+/* A step of the solver is a row of results of many time steps, of which an explicit run has far more than
+ * rows. */
 long explicit_row (const pg_solver *s, long total, long now)
 {
     long n = rows_of (&s->options, total), j = now * n / total;
@@ -311,7 +313,8 @@ long explicit_row (const pg_solver *s, long total, long now)
     return end;
 }
 
-/* Levels end with rows, so that fields and history belong together. */
+/* 1: a level is reached at time step `now`. Levels end with rows, so that fields and history belong
+ * together. */
 int explicit_level (pg_solver *s, long total, long now)
 {
     int reached = 0;
@@ -320,7 +323,8 @@ int explicit_level (pg_solver *s, long total, long now)
     return reached;
 }
 
-/* Has the run come to its end? */
+/* Ends the run after its last step, where a crack has arrived at stop.set, or after too many steps with
+ * breaking. */
 pg_status explicit_end (pg_solver *s, const pg_state *state, int last, const char *what, double t)
 {
     pg_status status = PG_OK;
@@ -339,8 +343,8 @@ done:
     return status;
 }
 
-/* Which unknowns are prescribed here, by numbers of points that all ranks know: another division finds them
- * by that. */
+/* Keeps the prescribed unknowns by numbers of points that are the same on all ranks, for runs that go on with
+ * other ranks. */
 static pg_status keep_prescribed (const pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -361,7 +365,7 @@ done:
     return status;
 }
 
-/* Energy taken by damping, reactions of the supports. Their motion is evaluated anew after reading back. */
+/* Keeps energy taken by damping and reactions of supports, whose motion is evaluated again after reading. */
 pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -383,7 +387,8 @@ done:
     return status;
 }
 
-/* Ghosts have no velocities of their own here; displacements of the supports are evaluated anew. */
+/* Reads what a run with other ranks kept. Ghosts have no velocities of their own here; displacements of the
+ * supports are evaluated again. */
 pg_status explicit_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Short-range contact and platens in explicit steps (perigal/contact.h): their forces stand in the residual
- * beside those of the body, and in a list of their own where the work of the body's forces is asked for; its
- * energies are booked beside theirs. */
+ * Short-range contact and platens in explicit steps (perigal/contact.h): their forces are added to the
+ * residual of the body, and kept in a list of their own for the work of the body's forces alone; their
+ * energies are counted separately. */
 #include "explicit.h"
 #include <math.h>
 #include <stdio.h>
@@ -64,7 +64,7 @@ double explicit_contact_kinetic (const pg_solver *s)
     return c && c->platens ? pg_moving_platens_now (c->platens)->kinetic : 0;
 }
 
-/* More contacts on a point than faces of bodies have may take the step beyond what is stable. */
+/* Warns where more contacts on a point than surfaces of bodies have may make the step unstable. */
 static void doubt (pg_solver *s)
 {
     const motion *m = motion_of (s);
@@ -84,9 +84,9 @@ static void doubt (pg_solver *s)
                         "with solver.dt: %.3g s", 1.8 / sqrt (c->bare * c->bare + rate));
 }
 
-/* Forces of pairs on the residual f. Contact is one of points: unknowns that are none are turned into
- * displacements and velocities of points, and their forces back, by the transposed, so that they do the same
- * work, and as shape functions add up to one momentum stays. */
+/* Adds the forces of pairs to the residual f. Contact acts on points: where unknowns are not displacements of
+ * points, these are found from them, and forces turned back by the transposed map, so that work is the same
+ * and, as shape functions add up to one, momentum is kept. */
 static pg_status add_pairs (struct explicit_contact *c, const pg_system *sys, const pg_state *state,
                             const pg_changes *broken, double dt, double way, double *f)
 {
@@ -98,7 +98,7 @@ static pg_status add_pairs (struct explicit_contact *c, const pg_system *sys, co
     sys->force->surfaces.at_nodes (sys->self, state->v, c->speed);
     memset (c->pressed, 0, sys->ndof * sizeof *f);
     memset (c->taken, 0, sys->ndof * sizeof *f);
-    /* how far shape functions carry is not known beforehand: points are looked at */
+    /* it is not known how far shape functions move the points, which are therefore all checked */
     PG_TRY (pg_short_range_add (c->pairs, &points, broken, !broken, c->speed, dt, INFINITY, c->pressed));
     sys->force->surfaces.from_nodes (sys->self, c->pressed, c->taken);
     for (size_t i = 0; i < sys->ndof; i++) f[i] += c->taken[i];
@@ -107,7 +107,7 @@ done:
 }
 
 /* ---- impulses ------------------------------------------------------------------------------------------ */
-/* The ways of a range of unknowns: leapfrog's, as both writings of it have them (verlet.c, central.c). */
+/* Displacement increments of a range of unknowns, by leapfrog in both forms (verlet.c, central.c). */
 typedef struct { const pg_solver *s; const pg_state *state; double dt, keep, push; } going;
 static void see_ways (void *context, size_t first, size_t last, int thread)
 {
@@ -122,8 +122,8 @@ static void see_ways (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Pairs held apart by impulses. Bodies that touch and come together at the start collide there: an instant
- * later they have the velocities of after it. */
+/* Keeps pairs apart by impulses. Bodies that touch and approach at the start collide there: after the first
+ * step they have the velocities after the collision. */
 static pg_status hold_pairs (pg_solver *s, pg_state *state, const pg_changes *broken, double way, int first)
 {
     pg_status status = PG_OK;
@@ -148,7 +148,8 @@ done:
     return status;
 }
 
-/* Velocities of prescribed unknowns are zero inside a step: meanwhile they take those of their motion. */
+/* Velocities of prescribed unknowns, which are zero inside a step, are set to those of their motion
+ * meanwhile. */
 pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int first)
 {
     pg_status status = PG_OK;
@@ -208,7 +209,7 @@ static void show_platens (const struct explicit_contact *c, pg_statistics *r, si
             c->shown[i].motion[k] = now->platen[i].displacement[k];
 }
 
-/* What the report says of contact, and what was spared. */
+/* Writes energies, friction and overlap of contact into the report, and the work that was skipped. */
 void explicit_contact_show (pg_solver *s)
 {
     const struct explicit_contact *c = motion_of (s)->contact;
@@ -232,7 +233,7 @@ void explicit_contact_show (pg_solver *s)
     }
 }
 
-/* A row begins: what it is put back to where it is refused. */
+/* Saves, at the start of a row, what a refused row returns to. */
 pg_status explicit_contact_save (pg_solver *s)
 {
     struct explicit_contact *c = motion_of (s)->contact;
@@ -247,7 +248,7 @@ void explicit_contact_return (pg_solver *s)
     struct explicit_contact *c = motion_of (s)->contact;
     if (!c) return;
     if (c->platens) pg_moving_platens_return (c->platens);
-    if (c->pairs) pg_short_range_return (c->pairs);    /* room is there: they stood in it before */
+    if (c->pairs) pg_short_range_return (c->pairs);    /* there is memory: the pairs have fitted before */
     s->report.energy.contact = c->energy0, s->report.energy.friction = c->friction0;
     c->broken = -1;
 }

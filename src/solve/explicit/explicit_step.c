@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Explicit time steps (theory B4, G4): leapfrog of half-step velocities, in the writing of velocity Verlet or
- * of central differences. The energies are those that the method keeps: kinetic m v(n-1/2) v(n+1/2) / 2, work
- * by trapezoids, damping dt c m v_n^2; they add up to rounding while nothing breaks, so that the rest is what
- * breaking takes. */
+ * Explicit time steps (theory B4, G4): leapfrog with velocities at half steps, written as velocity Verlet or
+ * as central differences. The energies are those that the method conserves: kinetic m v(n-1/2) v(n+1/2) / 2,
+ * work by trapezoids, damping dt c m v_n^2; they add up to rounding while nothing breaks, so that the rest is
+ * what breaking dissipates. */
 #include "solve/contact/contact.h"
 #include "explicit.h"
 #include "solve/growth/facet_growth.h"
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK = 2048, LOOK = 8 };                      /* unknowns; time steps */
+/* unknowns of a block; time steps between two checks for numbers that are not finite */
+enum { BLOCK = 2048, LOOK = 8 };
 
-/* Always in the same order: sums round alike with every instruction set. */
+/* Sum of eight lanes, always in the same order: it rounds alike with every instruction set. */
 double lane_sum (const pg_eight *lanes)
 {
     const pg_eight s = *lanes;
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
-/* a . b over a range, in eight lanes. Copies for several processors are of functions of one file: GCC gives
- * those of others names that leave the library. */
+/* a . b over a range, in eight lanes. Versions for several processors are made of functions used in one file
+ * only: GCC would export the names of others from the library. */
 PG_WIDEST static double dot (const double *a, const double *b, size_t first, size_t last)
 {
     pg_eight s = { 0 };
@@ -34,7 +35,8 @@ double lane_dot (const double *a, const double *b, size_t first, size_t last)
     return dot (a, b, first, last);
 }
 
-/* 0 * x is 0 for every finite x and NaN otherwise: a sum tells all at once, without a branch. */
+/* Returns 0, or NaN when a number is not finite: 0 * x is 0 for every finite x and NaN otherwise, so that one
+ * sum tells, without a branch. */
 PG_WIDEST static double not_finite (const double *d, size_t first, size_t last)
 {
     pg_eight s = { 0 };
@@ -46,7 +48,7 @@ PG_WIDEST static double not_finite (const double *d, size_t first, size_t last)
 
 double lane_not_finite (const double *d, size_t first, size_t last) { return not_finite (d, first, last); }
 
-/* The largest size of what is compared; NaN is passed by. */
+/* The largest absolute value of a range; NaN is skipped. */
 static double lane_most (const double *a, size_t first, size_t last)
 {
     double s[8] = { 0 };
@@ -62,8 +64,8 @@ static double lane_most (const double *a, size_t first, size_t last)
 }
 
 /* ---- how many steps ------------------------------------------------------------------------------------ */
-/* Time steps from `end` and `dt`, or `end` from their number; dt is shortened so that the last step ends
- * at solver.end. steps: rows of history.csv, which are what the caller steps by. */
+/* Finds the number of time steps from `end` and `dt`, or `end` from that number; dt is shortened so that the
+ * last step ends at solver.end. steps: rows of history.csv, which are the steps of the caller. */
 static pg_status count_steps (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -94,18 +96,18 @@ done:
     return status;
 }
 
-/* The last step ends exactly at solver.end. */
+/* Time after n steps, s; the last step ends exactly at solver.end. */
 static double time_at (const pg_solver *s, long n)
 {
     return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt;
 }
 
 /* ---- half kicks of all unknowns ------------------------------------------------------------------------ */
-/* look: whether all displacements are finite */
+/* look 1: check whether all displacements are finite */
 typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; int look, fast; } kicking;
 
-/* Blocks of unknowns for one thread: the work of loads before and after, the half kicks, a look whether
- * all is finite. One pass over memory for all of these. */
+/* Works on blocks of unknowns in one thread: work of loads before and after, half kicks, check for numbers
+ * that are not finite, in one pass over memory. */
 static void work_on_blocks (void *context, size_t first, size_t last, int thread)
 {
     const kicking *c = context;
@@ -122,8 +124,8 @@ static void work_on_blocks (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Work of loads and supports over one half of a step, J: loads times velocity (at half steps, the list's
- * own) and reactions times the motion that is prescribed. */
+/* Work of loads and supports over one half of a step, J: loads times velocity (at half steps, `loads` being
+ * the sum) and external forces on prescribed unknowns times their motion. */
 static double push_work (const pg_solver *s, double loads, const double *from, const double *to)
 {
     const motion *m = motion_of (s);
@@ -132,7 +134,7 @@ static double push_work (const pg_solver *s, double loads, const double *from, c
     return 0.5 * sum;
 }
 
-/* How far an unknown has changed at most in the step that was opened, m. */
+/* Largest change of an unknown in the step that was begun, m. */
 static double furthest (const pg_solver *s)
 {
     const motion *m = motion_of (s);
@@ -140,12 +142,12 @@ static double furthest (const pg_solver *s)
     for (size_t b = 0; b < m->nblock; b++) most = fmax (most, m->sum[b * SUMS + SUM_FAST]);
     most *= s->options.dt;
     for (size_t k = 0; k < m->nprescribed; k++) most = fmax (most, fabs (m->next[k] - m->goal[k]));
-    /* what rounding may add to it is far below what is spared of the skin */
+    /* rounding of the sum is far smaller than the margin of the neighbour search */
     return most * (1 + 1e-9);
 }
 
-/* Half kicks of all unknowns, closing, opening or both, and what they mean for energies: work of loads and
- * supports, energy taken by damping, kinetic energy. */
+/* Does the half kicks of all unknowns, closing, opening or both, and sums what they mean for energies: work
+ * of loads and supports, energy taken by damping, kinetic energy. */
 static pg_status move (pg_solver *s, pg_state *state, kick_range range, int closing, int opening, int look)
 {
     pg_status status = PG_OK;
@@ -179,7 +181,7 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
         for (size_t k = 0; k < m->nprescribed; k++) state->d[m->prescribed[k]] = m->next[k];
         total[SUM_BAD] += lane_not_finite (m->next, 0, m->nprescribed);
         if (m->contact) m->contact->way = furthest (s);
-        if (system_is_shared (sys)) {                  /* all ranks end together, when the row does */
+        if (system_is_shared (sys)) {                  /* all ranks end together, at the end of the row */
             m->bad += total[SUM_BAD] != 0;
             PG_TRY (system_exchange (sys, state->d));
         } else if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
@@ -189,8 +191,8 @@ done:
     return status;
 }
 
-/* Velocity and acceleration of prescribed unknowns at t_n by differences of three instants, for fields
- * and checkpoints: at the half step where the method keeps velocities there (staggered), else central. */
+/* Sets velocity and acceleration of prescribed unknowns by differences of three times, for fields and
+ * checkpoints: at the half step where the method keeps velocities there (staggered), else central at t_n. */
 static void show_prescribed (const pg_solver *s, pg_state *state, int staggered)
 {
     const motion *m = motion_of (s);
@@ -202,8 +204,8 @@ static void show_prescribed (const pg_solver *s, pg_state *state, int staggered)
     }
 }
 
-/* The force on prescribed unknowns from outside, N: what their mass and acceleration need beside the
- * internal force and the loads. They have no out-of-balance force. */
+/* Finds the external force on prescribed unknowns, N: what their mass and acceleration need beside the
+ * internal force and the loads; their residual becomes 0. */
 static void take_reactions (pg_solver *s)
 {
     motion *m = motion_of (s);
@@ -218,8 +220,9 @@ static void take_reactions (pg_solver *s)
     }
 }
 
-/* Tips that run, looked at where they are due, with the velocities and accelerations of t_n; inside a step
- * those of the state are half a step behind. What is cut is held, so that the forces at hand stay valid. */
+/* Looks at moving crack tips where that is due, with velocities and accelerations at t_n (inside a step
+ * those of the state are half a step behind). Bonds that are cut are held, so that the present forces stay
+ * valid. */
 static pg_status run_tips (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
@@ -241,7 +244,7 @@ done:
     return status;
 }
 
-/* Forces at t_n, which d has reached; supports move on to t_n+1. */
+/* Finds the forces at t_n, which d has reached; supports move on to t_n+1. */
 static pg_status arrive (pg_solver *s, pg_state *state, long n)
 {
     pg_status status = PG_OK;
@@ -259,8 +262,8 @@ done:
 }
 
 /* ---- work_balance -------------------------------------------------------------------------------------- */
-/* What motion adds to the residual of unknown i, N, for reactions: -m (a + c v), with the velocity brought
- * from the half step to t_n; prescribed unknowns are not damped. */
+/* Force of inertia and damping on unknown i, N, for reactions: -m (a + c v), with the velocity brought from
+ * the half step to t_n; prescribed unknowns are not damped. */
 static double inertia_of (const pg_solver *s, const pg_state *state, int staggered, int prescribed, size_t i)
 {
     double c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
@@ -268,16 +271,16 @@ static double inertia_of (const pg_solver *s, const pg_state *state, int stagger
     return -s->break_loop.system.mass[i] * (state->a[i] + (prescribed ? 0 : c * v));
 }
 
-/* The work balance of the force at the state, which its last evaluation was of: the residual is still there,
- * but for the reactions, which are put back meanwhile. A force that cannot use it, and a plain run, evaluate
- * the force once more. */
+/* Finds the work balance of the force at the state. Its last evaluation was at this state, so that the
+ * residual is reused, with reactions put back meanwhile; a force that cannot use it, and a plain run,
+ * evaluate the force again. */
 static pg_status measure_work (pg_solver *s, const pg_state *state, double t, int staggered)
 {
     pg_status status = PG_OK;
     const motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
-    /* of contact by search, or of crack faces: never both */
+    /* forces of contact of crack faces; these and contact by search exclude each other */
     const double *contact = sys->balance.pressed;
     int searched = explicit_contact_active (s),
         spare = !s->options.plain && !b->growth && !contact && !searched;
@@ -299,7 +302,7 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     return status;
 }
 
-/* Do forces balance, with all that acts on nodes? */
+/* Checks the balance of all forces, with inertia and contact on nodes. */
 static void measure_balance (pg_solver *s, const pg_state *state, int staggered)
 {
     const motion *m = motion_of (s);
@@ -315,7 +318,8 @@ static void measure_balance (pg_solver *s, const pg_state *state, int staggered)
     force_balance (sys, state->d, &s->break_loop.work_balance, sys->balance.full);
 }
 
-/* ... with inertia, which belongs to the reactions. book: the work since the last account is added. */
+/* Finds the work balance, inertia being part of the reactions; book 1: adds the work since the last
+ * account. */
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
     pg_status status = PG_OK;
@@ -331,8 +335,8 @@ done:
 }
 
 /* ---- a run --------------------------------------------------------------------------------------------- */
-/* d and v as given but for the supports; prescribed unknowns that do not move on as they did are pushed.
- * Energy at hand counts as work done. */
+/* Begins a run: d and v as given but for the supports; prescribed unknowns whose velocity changes get a
+ * force. Energy at the start counts as work done. */
 static pg_status begin (pg_solver *s, pg_state *state, int staggered)
 {
     pg_status status = PG_OK;
@@ -368,7 +372,7 @@ done:
     return status;
 }
 
-/* The caller looks at a state in the middle of a step, between rows, and may end the step there. */
+/* Calls the caller's function in the middle of a step, between rows; it may end the step there. */
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
 {
     break_loop *b = &s->break_loop;
@@ -380,14 +384,14 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
     return status;
 }
 
-/* Bonds that die may stiffen what is left of a body (non-ordinary theories with few neighbours), so that a
- * stable step no longer is. */
+/* Refuses a run whose energy grows without work: broken bonds may stiffen a body (non-ordinary theories with
+ * few neighbours), so that the time step is no longer stable. */
 static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
-    /* An unstable step gives leapfrog's kinetic energy the other sign, so that the sum stays what it was. So
-     * does a stable step just below the limit, which the body had before anything broke. */
+    /* In an unstable step leapfrog's kinetic energy becomes negative, so that the sum stays as it was; so it
+     * does in a stable step just below the limit, before anything has broken. */
     double sum[4] = { s->report.energy.kinetic, s->report.energy.strain, s->break_loop.work,
                       (double) state->broken };
     PG_TRY (pg_cloud_sum (&s->problem->cloud, 4, sum));
@@ -405,9 +409,9 @@ done:
     return status;
 }
 
-/* Ranks: the steps of the row in which a bond broke on any of them; a state that is not finite on one ends
- * the run on all. The energies of the report stay those of this rank; what a row shows is summed when it is
- * written (app/results/history.c). */
+/* Ranks: counts the steps of the row in which a bond broke on any of them; a state that is not finite on one
+ * ends the run on all. The energies of the report stay those of this rank; those of a row are summed when it
+ * is written (app/results/history.c). */
 static pg_status share_row (pg_solver *s, pg_state *state, long n)
 {
     pg_status status = PG_OK;
@@ -431,8 +435,8 @@ done:
     return status;
 }
 
-/* What a row shows: energies and what breaking has taken (work less stored, kinetic and damped energy,
- * over the step), reactions, whether a level or an end is reached. */
+/* Finds what a row reports: energies and what breaking has dissipated (work less stored, kinetic and damped
+ * energy, over the step), reactions, whether a level or an end is reached. */
 static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
 {
     pg_status status = PG_OK;
@@ -466,8 +470,8 @@ done:
     return status;
 }
 
-/* A row of history.csv: many time steps. Half kicks are joined into one pass over memory wherever nobody
- * looks at the state in between. */
+/* Advances by a row of history.csv: many time steps. Half kicks are joined into one pass over memory wherever
+ * the state in between is not used. */
 pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_range range, int staggered)
 {
     pg_status status = PG_OK;
@@ -485,7 +489,8 @@ pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_rang
     if (!m->fresh)
         PG_TRY (explicit_follow (s, time_at (s, n - 1), time_at (s, n), (double) (n + 1) * s->options.dt));
     while (n < last) {
-        /* What is not finite stays so: it is enough to look now and then, and before anybody else does. */
+        /* A number that is not finite stays so: checking is enough now and then, and before the state is
+         * used. */
         int looks = s->options.plain || (n + 1) % LOOK == 0 || n + 1 == last || (n + 1) % m->between == 0;
         pg_status now = move (s, state, range, !closed, 1, looks);
         if (now != PG_OK) PG_TRY (explicit_lost (s, state, time_at (s, n + 1)));
@@ -506,7 +511,7 @@ done:
     return status;
 }
 
-/* The row is taken back: what was summed in it too. */
+/* Takes back a refused row, and what was summed in it. */
 void explicit_refused (pg_solver *s)
 {
     motion *m = motion_of (s);
@@ -517,7 +522,7 @@ void explicit_refused (pg_solver *s)
     m->fresh = 0;
 }
 
-/* Time steps behind it, those of an interrupted row included. */
+/* 1: all time steps are done, those of an interrupted row included. */
 int explicit_done (const pg_solver *s, const pg_state *state)
 {
     return state->iterations + s->break_loop.round >= s->options.time_steps;
@@ -529,7 +534,7 @@ double explicit_progress (const pg_solver *s, const pg_state *state)
 }
 
 /* ---- options ------------------------------------------------------------------------------------------- */
-/* Keys of solver that explicit dynamics have in common; what they cannot do is a fault. */
+/* Reads the keys of solver that explicit methods have in common; what they cannot do is a fault. */
 void explicit_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     PG_OWN (pg_explicit_options, o)->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");

@@ -4,7 +4,7 @@
  * for the lowest frequency. */
 #include "relaxation.h"
 
-/* Masses are those of the body, the time step follows from them; damping is given per volume, or found by
+/* Takes the masses of the body, and the time step from them; damping is given per volume, or found by
  * Rayleigh's quotient. */
 static pg_status prepare (pg_solver *s)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Stages of a load, each brought to rest by damped motion (Kilic and Madenci 2010; Shen 2016; theory B4, C).
- * While a stage is held, bonds do not break before its load has come to act, for the jolt of the load's
- * arrival is not part of a quasi-static path. */
+ * While a stage is held, bonds do not break before its load has taken effect, as the jolt of a sudden load is
+ * not part of a quasi-static path. */
 #include "solve/run/body_parts.h"
 #include "solve/contact/contact.h"
 #include "relaxation.h"
@@ -10,10 +10,10 @@
 #include <string.h>
 
 enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
-static const double least = 1e-2;  /* of the largest reference so far: a body apart bears nothing */
-static const double arrival = 1e-2;  /* imbalance at which the load of a stage has come to act */
+static const double least = 1e-2;  /* least reference over the largest so far: separated parts bear nothing */
+static const double arrival = 1e-2;  /* imbalance from which on the load of a stage counts as applied */
 
-/* Supports and vectors as explicit dynamics has them; masses and time step come from the method. */
+/* Allocates supports and vectors as for explicit dynamics; the method adds masses and time step. */
 pg_status relaxation_create (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -36,7 +36,7 @@ void relaxation_free (pg_solver *s)
     explicit_free (s);
 }
 
-/* From rest: the first iteration takes half a step of velocity. */
+/* The first iteration starts from rest, with half a step of velocity. */
 pg_status relaxation_begin (pg_solver *s, const pg_state *state)
 {
     struct relaxation *x = motion_of (s)->relaxation;
@@ -45,8 +45,7 @@ pg_status relaxation_begin (pg_solver *s, const pg_state *state)
     return x->weigh ? x->weigh (s) : PG_OK;
 }
 
-/* Load factor of a stage. The last one has exactly the full load, whatever rounding makes of the
- * quotient. */
+/* Load factor of a stage; exactly 1 in the last one, whatever rounding makes of the quotient. */
 static double factor_at (const pg_solver *s, long stage)
 {
     const pg_stages_options *own = stages_of (s);
@@ -63,9 +62,9 @@ typedef struct {
     int resting;
 } iterating;
 
-/* Sums of a range of blocks: r.r; the Rayleigh quotient's parts v K v dt = v (r' - r), r' being the last
- * residual, and v M v; whether all is finite. Eight lanes each, added in one order, so that instruction
- * sets do not show. */
+/* Sums for a range of blocks: r . r; the parts of Rayleigh's quotient v K v dt = v (r' - r), with the last
+ * residual r', and v M v; NaN where a number is not finite. Eight lanes each, added in one order, so that
+ * sums do not depend on the instruction set. */
 PG_WIDEST static void measure (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
@@ -88,9 +87,9 @@ PG_WIDEST static void measure (void *context, size_t first, size_t last, int thr
     }
 }
 
-/* One iteration for a block of unknowns: from rest (half a kick), with a damping rate of its own for each
- * unknown, or with one rate c for all. v at half steps, d at whole ones; a keeps the residual for the
- * next quotient. */
+/* One iteration for blocks of unknowns: from rest (half a kick), with a damping rate of its own for each
+ * unknown, or with one rate c for all. v is at half steps, d at whole ones; a keeps the residual for the next
+ * quotient. */
 static void move (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
@@ -113,8 +112,8 @@ static void move (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Sums of all blocks and, behind them, squares of loads and reactions: over all ranks that share the body, of
- * whose ghosts residuals, loads and velocities are 0. */
+/* Adds up the sums of all blocks and the squares of loads and reactions, over all ranks that share the body;
+ * at ghosts residuals, loads and velocities are 0. */
 enum { SQUARE_P = SUMS, SQUARE_PUSH, ALL_SUMS };
 static pg_status add_up (const pg_solver *s, double *total)
 {
@@ -129,7 +128,7 @@ done:
     return status;
 }
 
-/* The first point that is not finite; ranks whose own are say that another one has it. */
+/* Message with the first point that is not finite; on other ranks, that another rank has one. */
 static pg_status lost (const pg_solver *s, const pg_state *state, double t)
 {
     if (!system_is_shared (&s->break_loop.system) || lane_not_finite (state->d, 0, state->ndof) != 0)
@@ -138,15 +137,15 @@ static pg_status lost (const pg_solver *s, const pg_state *state, double t)
                      "a displacement on another rank is no longer finite at load factor %.6g", t);
 }
 
-/* Did a bond break since so many had, on any rank? */
+/* 1: on some rank more bonds have broken than `before`. */
 static int any_broke (const pg_solver *s, size_t before)
 {
     return system_most (&s->break_loop.system, (double) (s->break_loop.nbroken - before)) > 0;
 }
 
-/* The residual at d, free of the forces of supports; imbalance: its size over that of loads and
- * reactions, or of a hundredth of the largest so far once the body is apart; the damping of the next
- * iteration from the quotient. */
+/* Measures the residual at d, without forces of supports; imbalance: its size over that of loads and
+ * reactions, or over a hundredth of the largest so far once the body has come apart; sets the damping of the
+ * next iteration. */
 static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
@@ -181,10 +180,9 @@ done:
     return status;
 }
 
-/* What the points lack of balance adds up in the reactions: small forces of one sign all over a body leave
- * supports off by many times their norm. The largest sum of the residual along an axis over that of loads or
- * reactions, whichever is larger, and over the reference of the imbalance where a body that has come apart
- * bears less than that; prescribed unknowns have no residual any more. */
+/* Largest sum of the residual along an axis over that of loads or reactions, whichever is larger, or over the
+ * reference force where a separated body bears less: small unbalanced forces of one sign all over a body
+ * change its reactions by many times their norm. Prescribed unknowns have no residual. */
 static double imbalance_of_reactions (const pg_solver *s)
 {
     const motion *m = motion_of (s);
@@ -208,7 +206,7 @@ static double imbalance_of_reactions (const pg_solver *s)
     return size > 0 ? most / size : 0;
 }
 
-/* One iteration of all unknowns. */
+/* One iteration for all unknowns. */
 static pg_status iterate (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -236,8 +234,8 @@ static pg_status impose (const pg_solver *s, pg_state *state)
     return system_exchange (&s->break_loop.system, state->d);
 }
 
-/* The next load. Under proportional loads the last balanced state times the ratio of loads is the next
- * one, until bonds break: then most iterations are spent where something has changed. */
+/* Begins the next stage. Under proportional loads the last balanced state is scaled by the ratio of loads,
+ * which is the next one until bonds break: most iterations are then spent where something has changed. */
 static pg_status open_stage (pg_solver *s, pg_state *state)
 {
     struct relaxation *x = motion_of (s)->relaxation;
@@ -251,7 +249,7 @@ static pg_status open_stage (pg_solver *s, pg_state *state)
     return impose (s, state);
 }
 
-/* The load has come to act: from now on bonds may break. The work up to this state is remembered, as the
+/* From now on bonds may break, as the load has taken effect. The work up to this state is remembered: the
  * state before the first break is the last one on the elastic path. */
 static pg_status arm (pg_solver *s, const pg_state *state, double t, int breaking)
 {
@@ -277,8 +275,8 @@ static pg_status book_pending (pg_solver *s)
     return break_loop_book (&s->break_loop, 1);
 }
 
-/* In balance: breaks what is over its limit as options.break_mode has it (the worst, a share of the
- * worst, all); *died: 1, some did, on any rank. */
+/* Breaks bonds over their limit in a balanced state as options.break_mode says (the worst, a share of the
+ * worst, all); *died 1: some broke, on any rank. */
 static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, int *died)
 {
     pg_status status = PG_OK;
@@ -297,9 +295,8 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
         PG_TRY (sys->force->judge (sys->self, state, state->d,
                                    &(pg_judging){ .utilisation = b->utilisation, .kind = b->kind }));
         step->utilisation = top = break_loop_largest (b, b->utilisation);
-        /* Bonds at cut or above break. Of the worst those within `tie` of it, so that bonds that are
-         * equal by symmetry break together; a share of the worst is wider, but takes none below its
-         * limit of 1. */
+        /* Bonds at the cut or above break: with PG_BREAK_WORST those within `tie` of the worst, so that bonds
+         * that are equal by symmetry break together; with a fraction more, but none below its limit of 1. */
         double cut =
             o->break_mode == PG_BREAK_ALL
                 ? 1
@@ -318,7 +315,7 @@ done:
     return status;
 }
 
-/* A stage that does not come to rest: why, and what to do. */
+/* Message for a stage that does not come to rest: why, and what to do. */
 static pg_status too_long (pg_solver *s, const pg_state *state, double t, long iterations)
 {
     const pg_problem *p = s->problem;
@@ -337,7 +334,7 @@ static pg_status too_long (pg_solver *s, const pg_state *state, double t, long i
     return body_parts_explain (sys, t, PG_E_EQUILIBRIUM);
 }
 
-/* The caller looks at the body between iterations and may stop the step. */
+/* Calls the caller's function between iterations; it may stop the step. */
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
 {
     break_loop *b = &s->break_loop;
@@ -348,8 +345,8 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
-/* Iterates until the stage is balanced and no bond is over its limit. With `passing` bonds break at any
- * iteration once the load has come to act, else in balance only. */
+/* Iterates until the stage is balanced and no bond is over its limit. With PG_BREAK_PASSING bonds break at
+ * any iteration once the load has taken effect, else in balanced states only. */
 static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -404,7 +401,7 @@ static pg_status step_of_held_stage (pg_solver *s, pg_state *state, pg_step *ste
     b->round = 0;
     step->residual = m->relaxation->imbalance;
     state->factor = t;
-    /* Levels are shares of the full load at which fields are written. */
+    /* levels are the shares of the full load at which fields are written */
     while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12))
         s->next_level++, step->level = 1;
     PG_TRY (explicit_end (s, state, state->step + 1 >= stages_of (s)->stages, "load factor", t));
@@ -413,10 +410,11 @@ done:
 }
 
 /* ---- one iteration a stage ----------------------------------------------------------------------------- */
-/* The least damping is estimated at iterations 1, 2, 4 ... 32, 64, 128 ...: often at first, seldom later. */
+/* 1: the least damping is estimated at this iteration: 1, 2, 4 ... 32, 64, 128 ..., often at first, seldom
+ * later. */
 static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0); }
 
-/* Without hold a step is a row of many stages, each of one iteration. */
+/* hold: off: a step is a row of many stages, each of one iteration. */
 static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -460,7 +458,7 @@ done:
     return status;
 }
 
-/* Damping, imbalance and what they are measured by, as one list. */
+/* Lists damping, imbalance and the sums they come from. */
 static void give_numbers (const struct relaxation *x, double *number)
 {
     const double now[RELAXATION_NUMBERS] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy,
@@ -468,7 +466,7 @@ static void give_numbers (const struct relaxation *x, double *number)
     memcpy (number, now, sizeof now);
 }
 
-/* What both kinds of steps share: energies, reactions, what breaking has taken. */
+/* Makes a step of either kind; then finds energies, reactions and what breaking has dissipated. */
 pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -491,7 +489,7 @@ done:
     return status;
 }
 
-/* Held stages are steps; without hold a step is many stages of one iteration. */
+/* 1: all stages are done. A held stage is a step; without hold a step is many stages of one iteration. */
 int relaxation_done (const pg_solver *s, const pg_state *state)
 {
     const pg_stages_options *own = stages_of (s);
@@ -506,7 +504,7 @@ double relaxation_progress (const pg_solver *s, const pg_state *state)
            / (double) own->stages;
 }
 
-/* The stage begins again from rest. */
+/* The stage begins again from rest after a refused step. */
 void relaxation_refused (pg_solver *s)
 {
     struct relaxation *x = motion_of (s)->relaxation;
@@ -520,7 +518,7 @@ static pg_status keep_numbers (struct relaxation *x, const char *name, const pg_
         PG_KEPT (x->heavy), PG_KEPT (x->floor)));
 }
 
-/* These, and where in a stage the body is. */
+/* Keeps these numbers, and how far the stage is. */
 pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -534,8 +532,8 @@ done:
     return status;
 }
 
-/* Ghosts have no velocities of their own here. A run that moves on begins from rest before its first
- * iteration alone. */
+/* Reads what a run with other ranks kept; it starts from rest only before its first iteration. Ghosts have no
+ * velocities of their own here. */
 pg_status relaxation_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
 {
     pg_status status = PG_OK;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Damping of relaxation, critical for the lowest frequency that is in motion: c = 2 omega, omega^2 = v K v /
- * v M v, Rayleigh's quotient of the velocity, found anew at every iteration from the change of the residual
- * (Kilic and Madenci 2010). */
+ * Damping of relaxation, critical for the lowest frequency in the motion: c = 2 omega, omega^2 = v K v / v M
+ * v, Rayleigh's quotient of the velocity, found at every iteration from the change of the residual (Kilic and
+ * Madenci 2010). */
 #include "relaxation.h"
 #include "perigal/ranks.h"
 #include <math.h>
 
-/* What of the quotient's two sums is kept from one iteration to the next, without and with hold: one
- * iteration alone makes the damping jump, and amplifies rounding. */
+/* Share of the two sums of the quotient that is kept from one iteration to the next, without and with hold:
+ * one iteration alone would make the damping jump, and amplify rounding. */
 static const double memory[2] = { 0.98, 0.9 };
-/* Without hold the damping is at least this share of the critical one of the shape that the loads give the
- * body. */
+/* Without hold the damping is at least this share of the critical one for the shape of the body under its
+ * loads. */
 static const double share = 0.5;
 
 void relaxation_damp (struct relaxation *x, int hold, double stiff, double heavy)
@@ -22,9 +22,9 @@ void relaxation_damp (struct relaxation *x, int hold, double stiff, double heavy
     }
 }
 
-/* A body that follows slow loads has hardly any strain rate: v K v would give no damping, and oscillations
- * would grow out of rounding. Rayleigh's quotient of the displacement itself, less its mean, is used instead:
- * d . (P - r) is d K d. */
+/* Damping from Rayleigh's quotient of the displacement itself, less its mean, where d . (P - r) is d K d: a
+ * body that follows slow loads has hardly any strain rate, so that v K v would give no damping and rounding
+ * would grow into oscillations. */
 double relaxation_least_damping (const pg_solver *s, const pg_state *state)
 {
     const motion *m = motion_of (s);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Is there a criterion, and a force that knows how it stands? */
+/* 1: bonds can break: there is a criterion of bonds, and the force can evaluate it. */
 int relaxation_breaks (const pg_solver *s)
 {
     const pg_force_type *force = s->break_loop.system.force;
@@ -28,8 +28,8 @@ static double smallest_stretch (const pg_problem *p)
     return s0;
 }
 
-/* At least so many stages that the mere arrival of a stage's load does not stretch bonds to their limit:
- * d_lambda |b| < 2 rho s0 h / dt^2 (Shen 2016 eqs (21), (22)), b the load per volume. */
+/* Raises the number of stages so that the sudden load of a stage does not by itself stretch bonds to their
+ * limit: d_lambda |b| < 2 rho s0 h / dt^2 (Shen 2016 eqs (21), (22)), b the load per volume. */
 static pg_status limit_stages (pg_solver *s)
 {
     pg_status status = PG_OK;

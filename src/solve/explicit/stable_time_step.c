@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The stable time step of explicit methods: 2 / omega, omega the largest frequency of the body. The force may
  * know an upper bound of omega in closed form or from the row sums of K; else it is measured (spectrum.c),
- * from below within 1 %. Left to the solver the step is 0.9 of the stable one, which leaves room for what
+ * from below within 1 %. If not given the step is 0.9 of the stable one, which leaves room for what
  * breaking may stiffen. Where facets cut shape functions it is 0.45: points between two branches keep few
  * neighbours, and what was measured to be stable there is 0.52 to 0.68 of the step of the body without
  * them; and with springs of short-range contact, where leapfrog's energy is out by what a pair moves in the
@@ -20,7 +20,8 @@ static double with_contact (const pg_solver *s, double omega)
     return sqrt (omega * omega + explicit_contact_rate (s));
 }
 
-/* A bound from above where the force has one; else the largest frequency itself, from below within 1 %. */
+/* Finds an upper bound of the largest frequency where the force has one; else the frequency itself, from
+ * below within 1 %. */
 static pg_status find_bound (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -33,18 +34,18 @@ static pg_status find_bound (pg_solver *s)
                             &m->omega, &m->from));
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
     PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &m->omega));
-    /* closed faces stand in for bonds that are among those of the bound */
+    /* closed faces may be stiffer than the bonds that the bound counts in their place */
     m->omega *= sqrt (contact_stiffer (sys));
     if (!isfinite (m->omega))
         PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
-    double whole = with_contact (s, m->omega);         /* each rank knows the contact of its own points */
+    double whole = with_contact (s, m->omega);         /* each rank has only the contact of its own points */
     PG_TRY (pg_cloud_most (&s->problem->cloud, 1, &whole));
     m->stable = whole > 0 ? (exact ? 0.99 : 1) * 2 / whole : INFINITY;
 done:
     return status;
 }
 
-/* Beyond the bound the frequency itself decides. */
+/* Refuses a time step that is too large: above the bound the frequency itself, measured, decides. */
 static pg_status check_dt (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -62,7 +63,8 @@ static pg_status check_dt (pg_solver *s)
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
     if (s->options.dt <= limit) goto done;
     const pg_scene *scene = s->options.scene;
-    if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps */
+    /* the step follows from solver.end / solver.time_steps */
+    if (scene && !pg_scene_given (scene, "solver.dt"))
         PG_TRY (options_fault (&s->options, "solver.time_steps",
                               "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / "
                               "largest frequency); take at least %.0f, "
@@ -77,7 +79,7 @@ done:
     return status;
 }
 
-/* Contact by springs, of pairs or of platens. */
+/* 1: contact acts by springs, of pairs or of platens. */
 static int springs_close (const motion *m)
 {
     return m->contact && (!m->contact->back || m->contact->platens);

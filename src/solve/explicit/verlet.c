@@ -4,7 +4,7 @@
  *     u_n+1 = u_n + dt v(n+1/2). v and a of the state are those of its displacement. */
 #include "explicit.h"
 
-/* The two halves of a step round alike, whether they come at once or one by one. */
+/* The two half kicks of a block; they round alike, whether both are due or one. */
 PG_WIDEST static void range (const half_kicks *w, size_t first, size_t last, double *sum)
 {
     const double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), only = w->only;

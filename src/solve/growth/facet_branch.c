@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A running tip that branches. Two tips need twice the energy of one, and what there is at most is G (0),
- * what the tip would release at rest, the branches setting out slowly (Eshelby 1970, in Inelastic Behavior
+ * Branching of a moving crack tip. Two tips need twice the energy of one, and what there is at most is G (0),
+ * what the tip would release if it stood still, as branches start slowly (Eshelby 1970, in Inelastic Behavior
  * of Solids, 77-115; Adda-Bedia 2005, J. Mech. Phys. Solids 53, 227-248: it is largest then). So a tip
  * branches where
  *
@@ -19,7 +19,7 @@
 #include <math.h>
 
 static const double half_angle = 0.52359877559829887, least_speed = 0.2, least_ring = 6, least_way = 4;
-enum { STRAIGHT = 2 };                                 /* facets until the branches are apart */
+enum { STRAIGHT = 2 };  /* facets along which branches run straight on, until they are apart */
 
 int facet_branches (const break_loop *b, const pg_state *state, size_t i)
 {
@@ -31,14 +31,15 @@ int facet_branches (const break_loop *b, const pg_state *state, size_t i)
     int slides;
     if (!b->system.options->branching || c->type->path (c, &n) || isnan (f->near)) return 0;
     facet_judge (b, state, i, 1, NULL, &slides);
-    if (f->closed || slides) return 0;                 /* it opens, or it does not branch */
-    /* the ring may end at a kink and the way may be as many facets: lengths that differ by rounding alone */
+    if (f->closed || slides) return 0;                 /* branches only open */
+    /* a ring that ends at a kink, and the path, may be as many facets long: lengths that differ by rounding
+     * only */
     double equal = pg_cloud_same (&b->system.problem->cloud);
     return r->steady <= 0.5 && f->wide > least_ring * f->h - equal
            && state->paths->tip[i].grown > least_way * f->h - equal;
 }
 
-/* A facet of length l from x at an angle; 0: the material takes none there. */
+/* Finds a facet of length l from x at an angle; 0: the material allows none there. */
 static int branch_from (const break_loop *b, const double *x, double angle, double l, facet_candidate *out)
 {
     pg_fracture_limits limits;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the faces of a facet that is cut in motion go on bearing by contact. Before the cut its bonds carry a
- * traction; of that, contact (contact_solve.c) carries on the pressure p, and of the shear what friction
- * takes, at most mu p + c. Only the rest is the material's, and is held and let go (facet_hold.c): were the
- * pressure held too, it would die down while contact takes over, nothing would press the faces behind a
- * running tip meanwhile, and it would do work where they part. */
+ * Forces that contact goes on transmitting between the faces of a facet that is cut in dynamics. Before the
+ * cut its bonds carry a traction; of that, contact (contact_solve.c) transmits the pressure p, and of the
+ * shear what friction can bear, at most mu p + c. Only the rest belongs to the material, and is held and
+ * released (facet_hold.c): were the pressure held too, it would decay while contact takes over, nothing would
+ * press the faces behind a moving tip meanwhile, and it would do work where they part. */
 #include "solve/contact/contact.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -41,7 +41,8 @@ pg_status facet_faces_before (const break_loop *b, const pg_state *state, const 
     PG_TRY (s->force->sample (s->self, state, d, n, out->x, u, stress, NULL));
     for (size_t q = 0; q < n; q++) {
         const double *v = stress + 6*q, *m = out->normal + 2*q;
-        double t[2] = { v[0] * m[0] + v[3] * m[1], v[3] * m[0] + v[1] * m[1] },    /* on the right face */
+        /* traction on the right face */
+        double t[2] = { v[0] * m[0] + v[3] * m[1], v[3] * m[0] + v[1] * m[1] },
                pressure = fmax (0, -(t[0] * m[0] + t[1] * m[1])), shear = -(t[0] * e[0] + t[1] * e[1]),
                limit = pressure > 0 ? setting->coefficient * pressure + setting->cohesion : 0;
         shear = fmax (-limit, fmin (limit, shear));

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How near a tip is to growth, and where to: of all directions the one in which the energy set free is
- * the largest share of what the material takes there. For one and the same energy in all directions that
- * is the direction of the largest hoop stress (Erdogan and Sih 1963), in closed form; else directions are
+ * Utilisation and direction of a tip: of all directions the one in which the energy released is the
+ * largest share of what the material takes there. With the same fracture energy in all directions that is
+ * the direction of the largest hoop stress (Erdogan and Sih 1963), in closed form; else directions are
  * compared. Sliding is judged by the largest shear stress around the tip in the same way, where the scene
  * gives its energy. Along an imposed path both modes share the energy: J_I / G0 + J_II / G_II = 1 (Wu and
  * Reuter 1965). */
 #include "facet_growth.h"
 #include <math.h>
 
-/* The first facet of a closed crack, which turns away from it, is twice as long: a ring that must end before
- * the closed faces has no room around a shorter one. */
+/* Length of the next facet. The first one of a closed crack, which turns away from it, is twice as long: a
+ * ring that must end before the closed faces has no room around a shorter one. */
 double facet_length (const facet_growth *g, const pg_tip_field *field)
 {
     return (field->closed ? 2 : 1) * (g->length > 0 ? g->length : field->h);
 }
 
-/* The material is that of the nearest node. */
+/* Fracture limits at x, by the material of the nearest node; 0: no crack can grow there. */
 int facet_limits (const break_loop *b, const double *x, double angle, pg_fracture_limits *out)
 {
     const pg_problem *p = b->system.problem;
@@ -32,12 +32,12 @@ typedef struct {
     const break_loop *b;
     const pg_tip_field *field;
     double J, K[3], length;
-    int    sliding;                                    /* 1: by the shear stress and its energy */
+    int    sliding;                                    /* 1: judged by the shear stress and its energy */
 } view;
 
-/* Square root of energy set free over energy taken, for a facet at `theta` from e; the limits are those
- * of its middle. K_theta of the circumferential stress: cos (t/2) (K_I cos^2 (t/2) - 3/2 K_II sin t), of
- * the shear stress cos (t/2)/2 (K_I sin t + K_II (3 cos t - 1)). */
+/* Square root of the energy released over that taken, for a facet at `theta` from e; the limits are those of
+ * its middle. K_theta of the circumferential stress: cos (t/2) (K_I cos^2 (t/2) - 3/2 K_II sin t), of the
+ * shear stress cos (t/2)/2 (K_I sin t + K_II (3 cos t - 1)). */
 static double share (const view *v, double theta)
 {
     const double *e = v->field->e, *K = v->K;
@@ -53,9 +53,11 @@ static double share (const view *v, double theta)
 }
 
 enum { LOOKS = 81, THIRDS = 40 };
-static const double fan = 80.0 / 180 * 3.14159265358979323846;         /* rad, to both sides */
+/* half range of directions that are tried, rad */
+static const double fan = 80.0 / 180 * 3.14159265358979323846;
 
-/* The best of a fan of +- 80 degrees, refined between its neighbours by golden sections. */
+/* Finds the best of the directions within 80 degrees to both sides, refined by golden sections; returns its
+ * share. */
 static double best (const view *v, double *theta)
 {
     static const double golden = 0.61803398874989485;
@@ -76,7 +78,7 @@ static double best (const view *v, double *theta)
     return top;
 }
 
-/* May limits differ from direction to direction, by expressions or by materials? */
+/* May fracture limits depend on direction, by expressions or by materials? */
 static int may_be_uneven (const pg_problem *p)
 {
     int uneven = p->nmaterial > 1;
@@ -85,7 +87,8 @@ static int may_be_uneven (const pg_problem *p)
     return uneven;
 }
 
-/* Do they around this tip? Two materials that meet elsewhere, or take the same, change no direction. */
+/* Do they depend on it around this tip? Two materials that meet elsewhere, or have the same limits, change no
+ * direction. */
 static int is_uneven (const view *v)
 {
     enum { ANGLES = 17 };
@@ -104,7 +107,7 @@ static int is_uneven (const view *v)
     return 0;
 }
 
-/* Does a scene give the energy of sliding? Without it no direction is worth a look for it. */
+/* 1: the scene gives the energy of sliding; else no direction is tried for it. */
 static int slides (const pg_problem *p, const double *x)
 {
     int any = 0;
@@ -118,8 +121,8 @@ static int slides (const pg_problem *p, const double *x)
     return any;
 }
 
-/* Opening: closed form, or a comparison of directions. T: stress along the crack. Behind a kink the load is
- * that of the largest hoop stress, and the direction that of the whole facet. */
+/* Judges opening: closed form, or a comparison of directions. T: stress along the crack. Behind a kink the
+ * load follows from the largest hoop stress, and the direction from the whole facet. */
 static double opening (const view *v, int nfield, const double *l, double T, double *theta)
 {
     double K_theta, G_theta;
@@ -135,7 +138,7 @@ static double opening (const view *v, int nfield, const double *l, double T, dou
 }
 
 /* ---- imposed path -------------------------------------------------------------------------------------- */
-/* Walks over as many segments as the length needs; beyond the last place the path is over. */
+/* Follows the path over as many segments as the length needs; it ends with its last point. */
 double facet_on_path (const double *path, size_t n, const double *x, const double *e, double length,
                       double *to, int *ends)
 {
@@ -161,7 +164,8 @@ double facet_on_path (const double *path, size_t n, const double *x, const doubl
     return near;
 }
 
-/* The energy of both modes is set free along the path, whatever direction the tip would choose. */
+/* Judges growth along the path: the energy of both modes is released along it, whatever direction the tip
+ * would choose. */
 static double along_path (const view *v, const double *path, size_t n, double *angle)
 {
     double to[3];

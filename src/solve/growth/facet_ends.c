@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the measure of a tip ends. A tip without room for a ring is judged by trial facets, or goes straight
+ * Tips that cannot be judged. A tip without room for a ring is judged by trial facets, or goes straight
  * out; where neither can be (a support or a load on points stands in the way, or the last ligament is pressed
  * together) nothing tells at which load it goes on. Rows of a run in which that is so have no say in its
  * peak, and where nothing else grows up to full load the run ends. */
@@ -7,7 +7,8 @@
 #include "front_growth.h"
 #include <math.h>
 
-/* 1: nothing judges tip i, which takes energy. What closed faces hide may come back, and does not count. */
+/* 1: tip i cannot be judged, although its material can break. Tips hidden by closed faces may be judged
+ * later, and do not count. */
 static int is_lost (const break_loop *b, const pg_state *state, size_t i)
 {
     const facet_growth *g = b->growth;
@@ -20,7 +21,7 @@ static int is_lost (const break_loop *b, const pg_state *state, size_t i)
     return facet_limits (b, f->x, atan2 (f->e[1], f->e[0]), &limits);
 }
 
-/* Faces that overlap where contact is not modelled: J says nothing. */
+/* 1: the faces of tip i overlap as contact is not modelled: its J means nothing. */
 static int overlaps (const break_loop *b, size_t i, double factor)
 {
     const facet_growth *g = b->growth;
@@ -31,7 +32,8 @@ static int overlaps (const break_loop *b, size_t i, double factor)
     return K[0] < 0 && fabs (K[0]) > 1e-3 * fabs (K[1]);
 }
 
-/* Open tips that nothing judges, or fronts that show nothing anywhere; *open: of how many. */
+/* Number of open tips that cannot be judged, or fronts without any measured vertex; *open: number of all open
+ * ones. */
 static long count_unjudged (const break_loop *b, const pg_state *state, double factor, long *open)
 {
     const facet_growth *g = b->growth;
@@ -57,9 +59,9 @@ long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
     long open = 0;
     if (!g || (!state->paths && !g->fronts)) return 0;
     long n = count_unjudged (b, state, factor, &open);
-    /* a motion that goes on in the middle of a step measured its tips before it was interrupted */
+    /* a dynamic step that continues measured its tips before it was interrupted */
     if (open && g->ntip == 0) return g->motion.unjudged;
-    /* where cracks have ended and none can begin nobody looks at what is left of the body */
+    /* where cracks have ended and none can begin the rest of the body is not judged */
     return n ? n : !open && !trial_has_strength (b->system.problem);
 }
 

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What facets in motion take out of the body, against the fracture energy of their area. The forces that a
- * facet holds die with the way of its tip, not with its opening, so that the two agree only as long as the
- * tip runs on: where tips branch, stop or are overdriven, or faces touch, they part. The run says when and
+ * Energy that facets in dynamics dissipate, against the fracture energy of their area. The forces that a
+ * facet holds decay with the path of its tip, not with its opening, so that the two agree only while the tip
+ * moves on: where tips branch, stop or move too fast, or faces touch, they differ. The run reports when and
  * where. */
 #include "facet_growth.h"
 #include <math.h>
 
-/* Growth, in spacings, from which on the ratio tells anything, and its bounds; of a crack that has grown by
- * fewer the end of the run tells as much, by wider ones. What one cut may set free, in fracture energies of
- * its facet. */
+/* Growth, in spacings, from which on the ratio of both is meaningful, and its bounds; at the end of a run
+ * less growth is enough, with wider bounds. cut_most: energy that one cut may release, in fracture energies
+ * of its facet. */
 static const struct { double grown, least, most; } running = { 10, 0.9, 1.1 }, ended = { 4, 0.75, 1.3 };
 static const double cut_most = 4;
 
-/* Is the share of the fracture energy that cracks of that length have taken out of bounds? */
+/* Is the dissipated share of the fracture energy, for cracks that have grown so far, out of bounds? */
 static int out_of_bounds (double share, double spacings, int finished)
 {
     if (spacings >= running.grown) return !(share > running.least && share < running.most);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Growth of cracks by facets: an equilibrium, J, K_I and K_II of every tip by integrals over rings around
- * it, the tip that is nearest to what its material takes gets a facet of about a spacing, every bond that
- * the facet crosses dies at once, and so on. The lattice enters only by the averaged field at 1 to 8
- * spacings from the tip (doc/method.md). This file: measuring, growing, one round at a fixed load;
- * facet_direction.c: how near a tip is and where to; facet_place.c: where its facet ends; facet_events.c:
- * from event to event. */
+ * Growth of cracks by facets: find an equilibrium, find J, K_I and K_II of every tip by integrals over rings
+ * around it, extend the tip that is nearest to its fracture limit by a facet of about a spacing, break all
+ * bonds that the facet crosses, and so on. The lattice enters only by the averaged field at 1 to 8 spacings
+ * from the tip (doc/method.md). This file: measuring, growing, one round at a fixed load; facet_direction.c:
+ * utilisation and direction of a tip; facet_place.c: the end of its facet; facet_events.c: event stepping. */
 #include "solve/contact/contact.h"
 #include "facet_growth.h"
 #include "front_growth.h"
@@ -15,15 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* T sqrt (h) over K_I that is large. Tips of closed cracks, and their wings, that are as near to growth as
- * the scatter of K between two places of a lattice are tied: wings of one crack grow together. */
+/* T sqrt (h) / K_I from which on T counts as large. Tie for tips of closed cracks and their wings:
+ * utilisations that differ by less than the scatter of K between two positions on a lattice, so that wings of
+ * one crack grow together. */
 static const double LARGE_T = 0.2, CLOSED_TIE = 0.05;
 
-/* Fronts of surfaces instead of tips. */
+/* 1: the body is 3D, with fronts of surfaces instead of tips. */
 static int in_space (const break_loop *b) { return b->system.problem->dim == 3; }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* Materials whose strength is more than the points can tell from their fracture energy. */
+/* Warns of materials whose strength is more than the spacing resolves with their fracture energy. */
 static void doubt_strength (const break_loop *b)
 {
     const pg_problem *p = b->system.problem;
@@ -48,7 +48,7 @@ static void doubt_strength (const break_loop *b)
     }
 }
 
-/* Where the criterion judges tips. */
+/* Allocates growth by facets where the criterion judges tips. */
 pg_status facet_create (break_loop *b, const growth_client *client)
 {
     pg_status status = PG_OK;
@@ -80,7 +80,7 @@ void facet_free (break_loop *b)
     b->growth = NULL, b->grower = NULL;
 }
 
-/* What was measured: facet_memory.c, which comes later. */
+/* Writes or reads back warnings and energy; the measurement follows in facet_memory.c. */
 pg_status facet_keep (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -105,15 +105,15 @@ done:
     return status;
 }
 
-/* Does a trial facet move this tip? */
+/* 1: a trial facet extends this tip. */
 static int is_tried (const facet_growth *g, size_t tip)
 {
     for (size_t k = 0; k < g->ntrial; k++) if (g->trial[k].tip == (long) tip) return 1;
     return 0;
 }
 
-/* Is it pressed together? In motion a wave that passes may do so for a moment, which counts from a tenth of
- * the toughness on. */
+/* 1: the tip is pressed together. In dynamics a passing wave may do so for a moment, which counts from a
+ * tenth of the toughness on. */
 static int closes (const break_loop *b, const pg_tip_field *f, const double *K)
 {
     pg_fracture_limits limits;
@@ -122,8 +122,8 @@ static int closes (const break_loop *b, const pg_tip_field *f, const double *K)
     return K[0] * K[0] > 0.01 * f->modulus * limits.energy;
 }
 
-/* J of two rings that differ by more than a tenth: of a tip that may decide, not of one that is next to
- * unloaded beside others, or beside what it takes to grow (rounding). */
+/* Warns where J of two rings differs by more than a tenth at a tip that may decide; not at one that is almost
+ * unloaded compared with others, or with what its growth takes (rounding). */
 static void doubt_release (break_loop *b, const pg_state *state, size_t i, double top)
 {
     static const double doubtful = 0.1, decisive = 0.5, nothing = 1e-6;
@@ -144,7 +144,8 @@ static void doubt_release (break_loop *b, const pg_state *state, size_t i, doubl
     g->said |= FACET_SAID_UNKNOWN;
 }
 
-/* An open tip next to faces that press, which no ring around a kink knows: its own ring ends at them. */
+/* Warns of an open tip next to faces that press on each other, which a ring around a kink does not include:
+ * its own ring ends at them. */
 static void doubt_beside_faces (break_loop *b, const pg_state *state, size_t i)
 {
     static const double narrow = 3;
@@ -161,7 +162,7 @@ static void doubt_beside_faces (break_loop *b, const pg_state *state, size_t i)
     g->said |= FACET_SAID_BESIDE;
 }
 
-/* What the user should know of tips that were measured, each said once. */
+/* Gives the warnings about tips that were measured, each once. */
 static void tell (break_loop *b, const pg_state *state)
 {
     facet_growth *g = b->growth;
@@ -194,7 +195,7 @@ static void tell (break_loop *b, const pg_state *state)
     }
 }
 
-/* Is the stress along the crack large? Of two fields: at either end of their loads. */
+/* 1: the stress along the crack is large; of two fields: at either end of their loads. */
 static int has_large_T (const pg_tip_field *f, int nfield)
 {
     double T = f->T[0], K = f->K_wide[0][0];
@@ -210,7 +211,7 @@ void facet_settle_energy (pg_tip_field *f, int nfield)
     pg_tip_energy (f, nfield, f->K_wide, f->J), pg_tip_energy (f, nfield, f->K_wide, f->J_near);
 }
 
-/* Integrals that are no numbers judge nothing: the tip has no rings, and it is said. */
+/* Drops integrals that are not finite: the tip counts as without rings, with a warning. */
 static void drop_nan (pg_system *s, pg_tip_field *f, long id, int nfield)
 {
     double sum = 0;
@@ -228,7 +229,7 @@ static void drop_nan (pg_system *s, pg_tip_field *f, long id, int nfield)
                              id, f->x[0], f->x[1]);
 }
 
-/* One tip; with contact its faces may touch. */
+/* Measures one tip; with contact its faces may touch. */
 static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, const double *const *d,
                               const double *times)
 {
@@ -247,7 +248,7 @@ done:
     return status;
 }
 
-/* All open tips. In motion with contact, accelerations are those without what contact makes of them. */
+/* Measures all open tips. In dynamics with contact the accelerations include those by contact forces. */
 static pg_status tips_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
     pg_status status = PG_OK;
@@ -304,7 +305,8 @@ done:
     return status;
 }
 
-/* A new crack needs stress and energy at once, the next facet of a tip without room energy alone. */
+/* Utilisation of a trial facet at a load factor: a new crack needs stress and energy at once, the next facet
+ * of a tip without room energy alone. */
 double facet_trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor)
 {
     double l[2], release = 0, stress = 0;
@@ -327,7 +329,8 @@ double facet_utilisation (const break_loop *b, const pg_state *state, double fac
     return top;
 }
 
-/* J and K at the load at hand, how far from growth. A tip that has no ring keeps what was known of it. */
+/* Stores J, K and utilisation at the present load for results. A tip without a ring keeps its earlier
+ * values. */
 pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
 {
     pg_status status = PG_OK;
@@ -350,14 +353,14 @@ done:
 }
 
 /* ---- growing ------------------------------------------------------------------------------------------- */
-/* Bonds that crossed a facet die: all that are listed, since a further facet sorts its bonds in among
+/* Breaks the bonds that crossed a facet: all listed ones, as a further facet sorts its bonds in among
  * them. */
 static void kill_listed (const break_loop *b, pg_state *state)
 {
     for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
 }
 
-/* A tip within reach of the place where another met its crack has nowhere to go. */
+/* Closes tips near the point where a tip met another crack, as they have nowhere to go. */
 static pg_status close_others (break_loop *b, pg_state *state, const facet_candidate *c)
 {
     pg_status status = PG_OK;
@@ -372,8 +375,8 @@ done:
     return status;
 }
 
-/* A tip without a ring that leaves its way for the surface beside it, as a hole that the path would pass:
- * which of both it does, the spacing does not tell. */
+/* Warns of a tip without a ring that turns into the surface beside it, as of a hole that the path might pass:
+ * the spacing does not resolve which of both it does. */
 static void tell_swallowed (break_loop *b, const pg_state *state, const facet_candidate *c)
 {
     const pg_tip_field *f = &b->growth->field[c->tip];
@@ -388,13 +391,13 @@ static void tell_swallowed (break_loop *b, const pg_state *state, const facet_ca
                              state->paths->tip[c->tip].id, f->x[0], f->x[1], f->room / f->h);
 }
 
-/* One facet, and what it takes. */
+/* Grows one facet and adds its energy. */
 static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate *c)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
-    /* another tip ran into it at this event */
+    /* another tip has run into it in this event */
     if (c->tip >= 0 && !state->paths->tip[c->tip].open) return PG_OK;
     if (c->tip >= 0 && c->close) tell_swallowed (b, state, c);
     if (c->tip >= 0) PG_TRY (pg_crack_grow (state, p, (size_t) c->tip, c->to, c->close, &b->changes));
@@ -415,7 +418,7 @@ done:
     return status;
 }
 
-/* New cracks that tie and lie no further apart than they are long are one. */
+/* 1: two new cracks tie and are no further apart than they are long, so that they are one. */
 static int is_near (const facet_candidate *a, const facet_candidate *c)
 {
     double d =
@@ -424,7 +427,7 @@ static int is_near (const facet_candidate *a, const facet_candidate *c)
                       + hypot (c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
-/* New cracks and tips without room, the best first. Tips keep their numbers while others come into being. */
+/* Grows new cracks and tips without room, the best first. Tips keep their numbers while cracks are added. */
 static pg_status grow_trials (break_loop *b, pg_state *state, double factor, double least)
 {
     pg_status status = PG_OK;
@@ -449,7 +452,7 @@ done:
     return status;
 }
 
-/* Logs what died, in the order of the bonds. */
+/* Logs the broken bonds in ascending order. */
 static pg_status log_all (break_loop *b, pg_state *state, double utilisation, double t)
 {
     pg_status status = PG_OK;
@@ -463,8 +466,8 @@ done:
     return status;
 }
 
-/* What is left ahead of such a tip carries next to nothing, and nothing tells how much it takes to part
- * it: its energy is that of its length. */
+/* Extends tips without room to the surface. What is left ahead of such a tip carries hardly any load, and the
+ * energy to part it cannot be found: it is taken from its length. */
 pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew)
 {
     pg_status status = PG_OK;
@@ -484,7 +487,8 @@ done:
     return status;
 }
 
-/* Every tip is placed after those before it have grown, so that two that run into each other meet. */
+/* Grows the facets of an event. Each tip is placed after the ones before it have grown, so that two that run
+ * into each other meet. */
 pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
 {
     pg_status status = PG_OK;
@@ -543,7 +547,7 @@ done:
     return status;
 }
 
-/* In motion what is cut is held, so that there is no second round. */
+/* One round of growth. In dynamics what is cut is held, so that there is no second round. */
 pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
                        pg_step *step, int *again)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How a facet opens in a body that moves. Were all bonds across it cut at once, the body would find forces
+ * How a facet opens in dynamics. Were all bonds across it cut at once, the body would find forces
  * gone that the facet had carried a moment before: what they store is less than what the facet takes, and
  * the rest would ring through the lattice as waves as short as the spacing. In a body a crack takes its
  * energy while its faces part under what still pulls them together. So do facets here, as nodes of finite
@@ -8,12 +8,12 @@
  *
  *   f = F_new (d) - F_old (d),   F the internal forces without and with the bonds,  N,
  *
- * is held against, so that no force jumps, and dies down with the way s that the tip has come along the
+ * is applied against it, so that no force jumps, and decays with the path s of the tip along the
  * facet of length l:
  *
  *   M a + C v + F_new (d) = P + (1 - s / l) f.
  *
- * f is in balance by itself, as F_new and F_old are under rigid motions. What it does not give back,
+ * f is in balance by itself, as F_new and F_old are under rigid motions. What is not given back,
  * the drop of stored energy by the cut less its work on the body, is what the facet dissipates: the sum of
  * traction times opening, and therefore G (v) times the area. Nothing enters but F: every force that shows
  * forces between points or by shape functions opens its facets so, with a matrix or without one. */
@@ -22,11 +22,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The share of the force that is left after a way. */
+/* Share of the force that is left after the tip has moved by `way`; of a hold at its present way. */
 static double left_at (const facet_hold *h, double way) { return way >= h->length ? 0 : 1 - way / h->length; }
 static double left (const facet_hold *h) { return left_at (h, h->way); }
 
-/* The share of its energy that a facet has taken after a way, if it opens linearly: 2 int left ds / l. */
+/* Share of its energy that a facet has taken after the tip has moved by `way`, if it opens linearly: 2 int
+ * left ds / l. */
 static double taken_at (const facet_hold *h, double way) { return 1 - left_at (h, way) * left_at (h, way); }
 
 /* f . d, J. */
@@ -52,8 +53,8 @@ void facet_hold_free (facet_growth *g)
     g->motion.start = (facet_start) { 0 };
 }
 
-/* The sum of all into `held`, which the system adds to its forces; what facets have taken as far as they are
- * open. */
+/* held = sum of the forces of all facets that open, which the system adds; also updates the fracture energy
+ * taken, by how far facets are open. */
 void facet_hold_sum (break_loop *b)
 {
     facet_growth *g = b->growth;
@@ -69,7 +70,7 @@ void facet_hold_sum (break_loop *b)
     b->system.report->energy.fracture = g->needed - closed;
 }
 
-/* Loads less internal force at (t, d) with the bonds that live now, N (ndof). */
+/* out = loads less internal force at (t, d) with the present bonds, N (ndof). */
 static pg_status forces_at (const pg_system *s, double t, const double *d, double *out)
 {
     double unused;
@@ -112,7 +113,7 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, const face
     h.n = 0;
     for (size_t i = 0; i < s->ndof; i++)
         if (fabs (after[i]) > 1e-15 * most) h.unknown[h.n] = (long) i, h.force[h.n++] = after[i];
-    h.product = product (&h, d), h.drop -= 0.5 * h.product;        /* of all that has changed */
+    h.product = product (&h, d), h.drop -= 0.5 * h.product;        /* of all forces that have changed */
     PG_GROW (g->motion.hold, g->motion.cap_hold, g->motion.nhold + 1);
     g->motion.hold[g->motion.nhold++] = h;
     h.unknown = NULL, h.force = NULL;
@@ -122,8 +123,8 @@ done:
     return status;
 }
 
-/* Trapezoids: between two looks the forces die linearly. The cut itself set free 1/2 d (F_old - F_new) of a
- * linear body; it counts along the first facet of the way, as the tip takes it. */
+/* Sums the energy by trapezoids, as forces decay linearly between two looks. The cut itself released 1/2 d
+ * (F_old - F_new) in a linear body; it is counted along the first facet of the path, as the tip takes it. */
 void facet_hold_account (break_loop *b, size_t tip, const double *d, double *taken, double *needed)
 {
     facet_growth *g = b->growth;
@@ -140,7 +141,7 @@ void facet_hold_account (break_loop *b, size_t tip, const double *d, double *tak
     }
 }
 
-/* Facets that are open are no longer needed. */
+/* Drops facets that are fully open. */
 void facet_hold_drop (break_loop *b, int all)
 {
     facet_growth *g = b->growth;

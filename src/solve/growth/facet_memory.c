@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What was measured of tips and fronts, in checkpoints. A measurement that is at hand is kept with all its
- * digits and not made again: trial facets are solved for, with factors and preconditioners as they are at
- * that moment, so that a second measurement differs from the first one in its last digits, and counts. */
+ * Measurements of tips and fronts in checkpoints. A valid measurement is kept with all digits and not made
+ * again: trial facets are solved with the factors and preconditioners of the moment, so that a second
+ * measurement would differ in its last digits, and be counted. */
 #include "front_growth.h"
 
-/* Of tips, or of the vertices of fronts. */
+/* Writes or reads back the fields of tips, or of the vertices of fronts. */
 static pg_status keep_list_of_fields (pg_tip_field *f, size_t n, const pg_keeper *k)
 {
     return pg_keep_fields (k, "facets", "field", "field_numbers", n, PG_ROWS (
@@ -32,7 +32,7 @@ static pg_status keep_trials (facet_growth *g, const pg_keeper *k)
         PG_EACH (c, stress)));
 }
 
-/* The fields of tips, or of the vertices of fronts with the fronts that have no room. */
+/* The fields of tips, or of the vertices of fronts, with the flags of fronts without room. */
 static pg_status keep_fields (break_loop *b, const pg_state *state, const pg_keeper *k)
 {
     pg_status status = PG_OK;

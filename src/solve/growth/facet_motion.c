@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Facets in a body that moves. A tip does not jump from facet to facet as at rest: it runs at the speed v at
+ * Facets in dynamics. A tip does not jump from facet to facet as in statics: it moves at the speed v at
  * which it takes what the material takes, G (v) = G0, with (Freund 1990, Dynamic Fracture Mechanics, section
  * 6.4, exact to a few percent)
  *
  *   G (v) = g (v) G (0),   g (v) = 1 - v / c_R,
  *
- * G (0) what a tip at rest in its place would release, c_R the speed of the Rayleigh wave of the material.
+ * G (0) what a tip that stands there would release, c_R the speed of the Rayleigh wave of the material.
  * The integrals around the tip with their kinetic terms give what the tip takes as it runs, G (v): so
  *
  *   g_next = G0 / G (0) = g_now G0 / G (v),   v_next = c_R (1 - g_next), at least 0.
  *
- * A tip at rest starts at the speed of that formula; a tip that runs goes on unchanged where G (v) = G0,
+ * A standing tip starts at the speed of that formula; a tip that runs goes on unchanged where G (v) = G0,
  * whatever the formula is worth: it only says by how much the speed is corrected. g_now is a mean over the
  * time that a Rayleigh wave takes for half a spacing: the field around the tip is that of a little while
  * ago.
@@ -23,23 +23,26 @@
  * A facet is cut when a tip begins to run and when it has come to the end of the one before; behind the tip
  * it opens (facet_hold.c). The field of the near ring answers to a turn only when the crack has gone on for
  * a few spacings and waves have told of it: of the turn that it asks for a running tip takes a part in each
- * facet, lest it swing. New cracks do not begin in motion. */
+ * facet, lest it swing. New cracks do not begin in dynamics. */
 #include "facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Times over which g_now is a mean, and the g that decides on branching, in spacings of a Rayleigh wave. */
+/* Times over which g_now, and the g that decides on branching, are averaged, in spacings travelled by a
+ * Rayleigh wave. */
 static const double memory = 0.5, steadiness = 4;
 static const double part_of_turn = 0.3;
-/* An event leaves its tip at G = G0, an equilibrium that it would take for ever to leave, though it is not
- * stable: along the facet of the event it runs at this share of c_R at least. */
+/* An event leaves its tip at G = G0, an unstable equilibrium that would take forever to leave: along the
+ * facet of the event its speed is at least this share of c_R. */
 static const double set_off = 0.1;
-/* Rings are trusted within this factor; the memory for what facets took, in zones. */
+/* Bounds of the correction of rings (a factor); path over which dissipated energies are averaged, in
+ * zones. */
 static const double most_trust = 2, recent = 0.5;
-static const double between = 0.25;  /* way of a Rayleigh wave from look to look, in spacings, at least */
+static const double between = 0.25;  /* least path of a Rayleigh wave between two looks, spacings */
 
-/* Bonds between points reach over three spacings and more themselves. */
+/* Path of a tip over which a facet opens, in facets; bonds between points, which reach over three spacings
+ * and more, need less. */
 double facet_zone (const break_loop *b) { return b->system.problem->method->shape_functions ? 4 : 2; }
 
 void facet_doubt_step (break_loop *b, double dt)
@@ -55,7 +58,7 @@ void facet_doubt_step (break_loop *b, double dt)
                         dt * c_R / length, dt, 0.5 * length / c_R);
 }
 
-/* A new tip has come no way yet. */
+/* Allocates the data of tips; a new tip has not moved yet. */
 pg_status facet_make_room (facet_growth *g, size_t ntip)
 {
     pg_status status = PG_OK;
@@ -97,7 +100,7 @@ double facet_trust (const facet_growth *g, size_t i)
     return fmin (most_trust, fmax (1 / most_trust, g->motion.run[i].taken / g->motion.run[i].shown));
 }
 
-/* The speed of a tip for the steps to come. share: G (v) / G0; dt: since it was last looked at. */
+/* Finds the speed of a tip for the next steps. share: G (v) / G0; dt: time since it was last judged, s. */
 static void pace (facet_run *r, double share, double c_R, double h, double dt)
 {
     double g = share > r->mean ? r->mean / share : 1, way = dt * c_R / h;
@@ -108,9 +111,9 @@ static void pace (facet_run *r, double share, double c_R, double h, double dt)
     r->steady += (isfinite (dt) ? 1 - exp (-way / steadiness) : 1) * (g - r->steady);
 }
 
-/* What the facets of tip i dissipate beside what the rings say, along the last half of a zone of its way. Of
- * a tip that stands rings are right, and the work of its faces under forces that stay comes back: in the time
- * of a Rayleigh wave (its way: m) both become alike. */
+/* Compares the energy that the facets of tip i dissipate with that of the rings, along the last half of a
+ * zone. At a standing tip rings are right, and work of its faces under constant forces comes back: there both
+ * become equal within the time that a Rayleigh wave takes for a zone (way: its path, m). */
 static void compare (break_loop *b, size_t i, const double *d, double share, double way)
 {
     facet_growth *g = b->growth;
@@ -124,7 +127,7 @@ static void compare (break_loop *b, size_t i, const double *d, double share, dou
     r->come = 0;
 }
 
-/* One facet of tip i, cut and held. */
+/* Cuts one facet of tip i and holds its forces. */
 static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, double t, const double *d)
 {
     pg_status status = PG_OK;
@@ -140,7 +143,7 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
         PG_ALLOC (borne, b->system.ndof);
         PG_TRY (facet_faces_bear (b, state, &faces, borne));
     }
-    /* a ring that ends at a kink is as many facets wide, so that the two may be equal */
+    /* a ring that ends at a kink is as many facets wide, so that both may be equal */
     double zone = facet_zone (b) * length, equal = pg_cloud_same (&b->system.problem->cloud);
     const facet_hold what = { .tip = c->tip, .length = zone, .energy = c->energy,
                               .alone = g->field[i].wide > zone - equal };
@@ -155,8 +158,8 @@ done:
     return status;
 }
 
-/* Where the next facet of tip i goes; 0: nowhere. A tip that runs and has lost its room goes straight out,
- * and rests where there is no way out near. */
+/* Finds the next facet of tip i; 0: none. A moving tip that has lost its room goes straight out to the
+ * surface, and stops where it is not near. */
 static int next_facet (break_loop *b, const pg_state *state, size_t i, double angle, int slides,
                        facet_candidate *c)
 {
@@ -179,7 +182,7 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     return 1;
 }
 
-/* 1: tips are to be looked at: a Rayleigh wave has gone far enough, or a tip has reached the end of its
+/* 1: tips are to be judged: a Rayleigh wave has gone far enough, or a tip has reached the end of its
  * facet. */
 int facet_due (break_loop *b, double dt)
 {
@@ -195,8 +198,9 @@ int facet_due (break_loop *b, double dt)
     return 0;
 }
 
-/* Tip i was measured: its speed, and what it cuts where it has come to the end of its facet. dt: since the
- * last look. *any: something was cut at this look, so that the forces before the next cut are at hand. */
+/* Sets the speed of tip i, which was measured, and cuts its next facet at the end of the last one. dt: time
+ * since it was last judged, s. *any 1: something was cut at this look, so that the forces before the next cut
+ * are at hand. */
 static pg_status run_tip (break_loop *b, pg_state *state, size_t i, double t, const double *d, double dt,
                           double share, double angle, int slides, int *any)
 {
@@ -225,7 +229,7 @@ done:
     return status;
 }
 
-/* New cracks do not begin in motion: said where one might, once. */
+/* Warns once where a new crack might begin in dynamics, as none does. */
 static pg_status tell_of_starts (break_loop *b, const pg_state *state, double t, const double *d)
 {
     pg_status status = PG_OK;
@@ -327,7 +331,8 @@ done:
     return status;
 }
 
-/* A copy that has no memory leaves no facet held: the step is refused for another reason already. */
+/* Restores the start of a refused step. Without memory for the copy no facet is held, as the step is refused
+ * for another reason already. */
 void facet_return (break_loop *b)
 {
     facet_growth *g = b->growth;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the next facet of a tip ends. A tip near the surface or another crack has no room for a ring any
- * more, and the piece of body left there would carry next to nothing: so a facet that would end within
- * 1.5 spacings of the surface goes straight on into it, and one that would end within 0.6 spacings of
- * another crack goes straight to that crack. The tip is closed then. */
+ * The end of the next facet of a tip. A tip near the surface or another crack has no room for a ring any
+ * more, and the piece of body left there would carry hardly any load: so a facet that would end within 1.5
+ * spacings of the surface goes straight on into it, and one that would end within 0.6 spacings of another
+ * crack goes straight to that crack. The tip is closed then. */
 #include "facet_growth.h"
 #include <math.h>
 
 static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
 
-/* The place of another crack nearest to x, if it is within `reach`. */
+/* 1: another crack is within `reach` of x; place: its nearest point. */
 static int meets (const pg_crack_paths *paths, size_t tip, const double *x, double reach, double *place)
 {
     double least = reach;
@@ -57,7 +57,8 @@ void facet_place (const break_loop *b, const pg_state *state, size_t tip, double
     price (b, f, out);
 }
 
-/* Facet from a tip to the nearest place of the surface or of another crack; 0: none, or behind the tip. */
+/* Finds the facet from a tip to the nearest point of the surface or of another crack; 0: there is none, or it
+ * lies behind the tip. */
 int facet_way_out (const break_loop *b, const pg_state *state, size_t tip, facet_candidate *out)
 {
     const pg_problem *p = b->system.problem;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the vertices of crack fronts go, and how far.
+ * Direction and length of the advance of the vertices of crack fronts.
  *
  * A vertex in modes I, II and III turns about its front by the angle of the largest hoop stress (Erdogan and
  * Sih 1963; crack/fracture/kink_direction.c). With K_A = K_I cos^2 (theta/2) - 3/2 K_II sin theta, the
@@ -39,7 +39,7 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
     int n = facet_factors (g, factor, l);
     pg_tip_combine (f, n, l, &out->J, K, &T);
     if (!(out->J > 0)) return;
-    /* the opening decides whether there is a direction in tension; pure K_III has its own */
+    /* opening decides whether there is a direction of tension; pure K_III has its own */
     int turns = pg_kink (out->J, K[0], K[1], T, length, &out->kink, &K_theta, &G_theta);
     if (!turns && !(fabs (K[2]) > 0 && K[0] >= 0)) return;
     double c = cos (0.5 * out->kink), K_A = turns ? K_theta / c : 0;
@@ -56,7 +56,7 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
 }
 
 /* ---- neighbours ---------------------------------------------------------------------------------------- */
-/* The neighbours of vertex i of n: around a closed front, else none beyond its ends (i itself). */
+/* The neighbours of vertex i of n; an open front has none beyond its ends (i itself). */
 static size_t before (size_t i, size_t n, int closed) { return i > 0 ? i - 1 : closed ? n - 1 : i; }
 static size_t after (size_t i, size_t n, int closed) { return i + 1 < n ? i + 1 : closed ? 0 : i; }
 
@@ -74,11 +74,10 @@ static double runs_along (const pg_front *front)
     return sum < 0 ? -1 : 1;
 }
 
-/* The least squares of the rise: (w_i + l^2 (1/s_before + 1/s_after)) z_i - l^2 (z_before / s_before +
- * z_after / s_after) = w_i d_i sin theta_i + l^2 (psi_before - psi_after), s the lengths of the two edges,
- * psi the mean slope along each. By Gauss-Seidel: the matrix is diagonally dominant by the w_i. The sums of a
- * sweep go once forward and once backward, so that a mirrored front rises as the mirror image to the
- * tolerance. */
+/* Solves the least squares for the rise: (w_i + l^2 (1/s_before + 1/s_after)) z_i - l^2 (z_before / s_before
+ * + z_after / s_after) = w_i d_i sin theta_i + l^2 (psi_before - psi_after), s the lengths of the two edges,
+ * psi the mean slope along each. By Gauss-Seidel: the matrix is diagonally dominant by the w_i. A sweep goes
+ * forward and backward, so that a mirrored front rises as its mirror image, to the tolerance. */
 static void settle_rises (const pg_front *front, front_vertex *v, double l)
 {
     enum { SWEEPS = 200 };
@@ -107,9 +106,9 @@ static void settle_rises (const pg_front *front, front_vertex *v, double l)
     for (size_t i = 0; i < n; i++) v[i].rise = fmax (-0.98 * v[i].way, fmin (0.98 * v[i].way, v[i].rise));
 }
 
-/* Values that were extrapolated to the end of a front carry the noise of the vertices beside it more than
- * once, and an end that runs ahead alone has nothing to hold it: for growth an end goes as its neighbour that
- * was measured, so that the front stays at right angles to the surface where it was. */
+/* Gives the ends of a front the values of their nearest measured vertex: values extrapolated to an end carry
+ * the noise of several vertices, and nothing holds back an end that runs ahead. So the front stays at right
+ * angles to the surface where it was. */
 static void hold_ends (const pg_tip_field *field, front_vertex *v, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -124,8 +123,9 @@ static void hold_ends (const pg_tip_field *field, front_vertex *v, size_t n)
     }
 }
 
-/* The load of an event is that at which those who lead set free what they take: the mean of their energies
- * over their ways to this power. By the ways themselves it would be that of the middle of the step. */
+/* Power of the ways that weights the energies of vertices: the load of an event is that at which the leading
+ * vertices release, in the mean, what they take. Weighted by the ways themselves it would be the load of the
+ * middle of the step. */
 enum { LEADERS = 4 };
 
 /* ---- all vertices -------------------------------------------------------------------------------------- */

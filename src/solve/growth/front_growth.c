@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Growth of crack surfaces in space: an equilibrium, J, K_I, K_II and K_III at every vertex of every front by
+ * Growth of crack surfaces in 3D: an equilibrium, J, K_I, K_II and K_III at every vertex of every front by
  * integrals over a tube around it (crack/fracture/front_measure.c), a plan for all vertices together
  * (front_direction.c), and the surface advances by a strip of triangles
  * (crack/geometry/crack_surfaces.c); every bond
- * that the strip crosses dies at once. J of a vertex scatters by a per cent or two, so the load of an event
+ * that the strip crosses breaks at once. J of a vertex scatters by a per cent or two, so the load of an event
  * is that at which those who lead set as much energy free as they take: the load of the single vertex that
  * comes first would be too low by that scatter. This file: what facet_growth.c asks of fronts; the events are
  * those of facet_events.c. */
@@ -48,7 +48,7 @@ done:
     return status;
 }
 
-/* The nearest vertices along the front that were measured: one, or two that are as near on both sides.
+/* Finds the nearest measured vertices along the front: one, or two at the same distance on both sides.
  * Returns how many. */
 static size_t nearest_known (const unsigned char *known, size_t n, int closed, size_t i, size_t at[2])
 {
@@ -61,7 +61,7 @@ static size_t nearest_known (const unsigned char *known, size_t n, int closed, s
     return found;
 }
 
-/* The mean of what two vertices show. */
+/* out = mean of the values of two vertices. */
 static void add_half (pg_tip_field *out, const pg_tip_field *other)
 {
     double a[PG_TIP_NUMBERS], b[PG_TIP_NUMBERS];
@@ -71,8 +71,8 @@ static void add_half (pg_tip_field *out, const pg_tip_field *other)
     out->near = fmin (out->near, other->near), out->wide = fmin (out->wide, other->wide);
 }
 
-/* What a vertex that has just left closed faces shows as long as there is no room around it: the stress
- * intensity that made its first facet open, and no direction but straight on. from: a closed one beside
+/* out = values for a vertex that has just left closed faces and has no room around it yet: the stress
+ * intensity that made its first facet open, and the direction straight on. from: a closed vertex beside
  * it. */
 static void as_opened (pg_tip_field *out, const pg_tip_field *from, int nfield)
 {
@@ -81,7 +81,7 @@ static void as_opened (pg_tip_field *out, const pg_tip_field *from, int nfield)
     double J = (II * II + from->antiplane * III * III) / from->modulus;
     int turns = pg_kink (J, 0, II, NAN, 0, &theta, &K, &G);
     double c = turns ? cos (0.5 * theta) : 1, A = turns ? K / c : 0, root = hypot (A, 2 * III);
-    /* K_v = c / 2 (A + root) and its derivatives by K_II and K_III there: it is homogeneous */
+    /* K_v = c / 2 (A + root) by its derivatives with respect to K_II and K_III, as it is homogeneous */
     of_K[0] = II != 0 ? 0.5 * c * (A + (root > 0 ? A * A / root : 0)) / II : 0;
     of_K[1] = root > 0 ? 2 * c * III / root : 0;
     out->closed = 0;
@@ -93,14 +93,15 @@ static void as_opened (pg_tip_field *out, const pg_tip_field *from, int nfield)
     pg_tip_energy (out, nfield, out->K, out->J), pg_tip_energy (out, nfield, out->K, out->J_near);
 }
 
-/* How little of what a vertex shows another one may take over: extrapolated values less than measured ones,
- * those of faces that touch less than those of faces that do not, or the other way around, as its own do. */
+/* How unsuitable the values of another vertex are: those whose faces touch or not, unlike its own (closed),
+ * count 2, extrapolated ones 1. */
 static int unlike (const pg_tip_field *from, int closed)
 {
     return 2 * (from->closed != closed) + from->extrapolated;
 }
 
-/* What vertex i may take over: of its nearest known neighbour, or the mean of two that are as near. */
+/* The values that vertex i may take over: of its nearest known neighbour, or the mean of two that are as
+ * near. */
 static pg_tip_field shown_beside (const pg_tip_field *field, const pg_front *front,
                                   const unsigned char *known, size_t i, int closed)
 {
@@ -112,9 +113,9 @@ static pg_tip_field shown_beside (const pg_tip_field *field, const pg_front *fro
     return from;
 }
 
-/* A vertex whose tube has no room takes over what is shown beside it, but not where materials of unlike
- * stiffness meet: it stays there, as a front without any number does. faces: NULL or what they do to each
- * other behind the vertices. */
+/* Gives vertices without room for a tube the values of their neighbours, but not where materials of different
+ * stiffness meet: these stay where they are, as does a front without any values. faces: contact behind the
+ * vertices, or NULL. */
 static int fill_gaps (pg_tip_field *field, const pg_front *front, int nfield, const pg_front_faces *faces,
                       unsigned char *known)
 {
@@ -133,7 +134,7 @@ static int fill_gaps (pg_tip_field *field, const pg_front *front, int nfield, co
     return gaps == n;
 }
 
-/* A vertex of front k that lies where materials of unlike stiffness meet; NULL: there is none. */
+/* A vertex of front k at which materials of different stiffness meet; NULL: there is none. */
 static const pg_tip_field *at_interface (const facet_growth *g, size_t k)
 {
     for (size_t i = g->fronts->first[k]; i < g->fronts->first[k + 1]; i++)
@@ -141,8 +142,8 @@ static const pg_tip_field *at_interface (const facet_growth *g, size_t k)
     return NULL;
 }
 
-/* J of front k by its tube, its mean over the vertices (J/m^2), and the mean of what the tube of the next
- * smaller radius makes different. 0: there is one tube everywhere. */
+/* Mean J of front k over its vertices, J/m^2; *apart: mean difference to J by the next smaller tube. 0: each
+ * vertex has one tube only. */
 static double mean_release (const facet_growth *g, size_t k, double *apart)
 {
     const front_growth *f = g->fronts;
@@ -160,7 +161,7 @@ static double mean_release (const facet_growth *g, size_t k, double *apart)
     return length > 0 ? J / length : 0;
 }
 
-/* J of two tubes that differ by more than a tenth in the mean, of a front that may decide. */
+/* Warns where J of two tubes differs by more than a tenth in the mean, of a front that may decide. */
 static void doubt_release (const break_loop *b, const pg_front *front, size_t nfront)
 {
     static const double doubtful = 0.1, decisive = 0.25;
@@ -274,7 +275,7 @@ static size_t open_vertices (const pg_problem *p, const pg_state *state)
     return n;
 }
 
-/* Front k by the ways in f->d and f->theta; `need`: J/m^2 of what it takes in the mean. */
+/* Advances front k by the ways in f->d and the angles in f->theta; need: mean energy that it takes, J/m^2. */
 static pg_status advance (break_loop *b, pg_state *state, size_t k, double need)
 {
     pg_status status = PG_OK;
@@ -290,15 +291,15 @@ done:
     return status;
 }
 
-/* Is this front still the one that was measured? Another that grew before it in the same event may have met
- * it. */
+/* 1: this front is still as measured; another one that grew before it in this event may have met it. */
 static int is_as_measured (const front_growth *f, const pg_front *front, size_t k)
 {
     return front[k].open && front[k].n > 0 && front[k].n == f->first[k + 1] - f->first[k];
 }
 
-/* A sharp turn in space: tubes around the next fronts hold it, and their fields are those of a straight crack
- * (doc/accuracy.md, "Behind a kink"). theta: of each vertex of front k, whose ways are d. */
+/* Warns of a sharp turn of a front (3D): tubes around the next fronts include it, while their fields are
+ * those of a straight crack (doc/accuracy.md, "Behind a kink"). theta, d: angle and way of each vertex of
+ * front k. */
 static void doubt_turn (break_loop *b, const pg_front *front, const double *d, const double *theta)
 {
     static const double sharp = 0.7;                   /* rad: 3 % of the load at .79, 31 % at 1.23 */
@@ -317,7 +318,7 @@ static void doubt_turn (break_loop *b, const pg_front *front, const double *d, c
     g->said |= FACET_SAID_KINKED;
 }
 
-/* The strips of all fronts by the plan at hand. */
+/* Grows the strips of all fronts by the present plan. */
 static pg_status grow_planned (break_loop *b, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -356,7 +357,8 @@ done:
     return status;
 }
 
-/* What is left ahead of such a front carries next to nothing: its energy is that of its area. */
+/* Extends fronts without room straight on. What is left ahead of such a front carries hardly any load: its
+ * energy is taken from its area. */
 pg_status fronts_run_out (break_loop *b, pg_state *state, int *grew)
 {
     pg_status status = PG_OK;
@@ -384,7 +386,8 @@ done:
 }
 
 /* ---- results ------------------------------------------------------------------------------------------- */
-/* K in the ratio of the interaction integrals with the magnitude of J, sqrt (E' J). */
+/* Stores values at the vertices for results: K in the ratios of the interaction integrals, with the magnitude
+ * of J, sqrt (E' J). */
 pg_status fronts_show (pg_solver *s, const pg_state *state, double factor)
 {
     pg_status status = PG_OK;

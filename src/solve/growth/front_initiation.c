@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * New cracks in space. As in the plane (initiation.c) one begins where two conditions hold together
+ * New cracks in 3D. As in 2D (initiation.c) one begins where two conditions hold together
  * (Leguillon 2002): the tension across it reaches the strength everywhere on it, and the energy that it sets
  * free reaches what its area takes. It is tried as a disc across the largest tension; at the surface of the
  * body what lies inside is a half disc, in an edge a quarter.
@@ -17,21 +17,21 @@
 
 enum { RADII = 3, RIM = 24, RINGS = 3, SPOTS = 2, SIDES = 24, ROUNDS = 2, STEPS = 40 };
 
-/* A disc that is tried. */
+/* A trial disc: a new crack in 3D. */
 typedef struct {
     double centre[3], normal[3], across[2][3];         /* m; unit vectors, the last two in the plane */
     double h, modulus, strength, energy;               /* m; E', Pa; Pa; J/m^2 */
-    double factor, radius;                             /* load factor at which it comes into being; m */
-    trial_sizes sizes;                                 /* what radii set free */
+    double factor, radius;                             /* load factor at which it forms; m */
+    trial_sizes sizes;                                 /* energy that discs of several radii release */
 } disc;
 
 static const pg_problem *problem_of (const search *g) { return g->w->system->problem; }
 
-/* The second axis in its plane. */
+/* Sets the second axis in the plane of the disc. */
 static void complete (disc *d) { pg_cross3 (d->normal, d->across[0], d->across[1]); }
 
 /* ---- stress -------------------------------------------------------------------------------------------- */
-/* Of fields a = 0, 1 to constant and slope in lambda. */
+/* out = constant part and slope in lambda, from the values of fields 0 and 1. */
 static void affine_parts (const trial_fields *f, double first, double second, double out[2])
 {
     out[0] = f->n == 2 ? first : 0, out[1] = f->n == 2 ? second - first : first;
@@ -44,8 +44,8 @@ static double largest (const double s[6])
     return principal[0];
 }
 
-/* The least load factor below `most` at which the largest principal stress reaches f; INFINITY: none. It is
- * convex in the factor: below f at both ends, it is below f between them. */
+/* Smallest load factor below `most` at which the largest principal stress reaches f; INFINITY: none. The
+ * stress is convex in the factor: below f at both ends, it is below f between them. */
 static double strength_factor (const trial_fields *fields, const double *first, const double *second,
                                double f,
                                double most)
@@ -65,8 +65,8 @@ static double strength_factor (const trial_fields *fields, const double *first, 
     return high;
 }
 
-/* Mean of a field of stresses over node i and those within 1.1 spacings to which its bonds live; nodes that a
- * lattice has put outside the body only continue what is inside. */
+/* out = mean of a stress field over node i and its neighbours within 1.1 spacings by intact bonds; nodes that
+ * a lattice has put outside the body only continue the inside, and are left out. */
 static void mean_stress (const search *g, size_t i, const double *stress, double out[6])
 {
     const pg_problem *p = problem_of (g);
@@ -85,7 +85,8 @@ static void mean_stress (const search *g, size_t i, const double *stress, double
 }
 
 /* ---- hot spots ----------------------------------------------------------------------------------------- */
-/* What a crack takes at a node, the strength as far as the points can tell; 0: none begins there. */
+/* Finds the limits for a crack at node i, the strength as far as the spacing resolves it; 0: none begins
+ * there. */
 static int resists (const search *g, size_t i, pg_fracture_limits *out, double *modulus)
 {
     const pg_problem *p = problem_of (g);
@@ -95,8 +96,8 @@ static int resists (const search *g, size_t i, pg_fracture_limits *out, double *
            && out->strength > 0;
 }
 
-/* The plane across the largest tension at the load factor. The two other principal stresses, which may be
- * alike, say nothing of where the corners of the disc lie in it. */
+/* Sets the plane across the largest tension at the load factor. The two other principal stresses, which may
+ * be equal, do not determine the corners of the disc. */
 static void set_frame (const search *g, const double *first, const double *second, disc *d)
 {
     double S[9], lambda[3], V[9], s[6], part[2];
@@ -110,8 +111,8 @@ static void set_frame (const search *g, const double *first, const double *secon
     complete (d);
 }
 
-/* The way from a place in direction e (unit) to where the body ends, halved down from `most`; INFINITY: there
- * is body at `most`. */
+/* Distance from a point in the unit direction e to the end of the body, by bisection from `most`; INFINITY:
+ * the body reaches to `most`. */
 static double way_out (const pg_problem *p, const double *from, const double *e, double most)
 {
     double low = 0, high = most, x[3];
@@ -126,8 +127,8 @@ static double way_out (const pg_problem *p, const double *from, const double *e,
     return low;
 }
 
-/* A centre within a spacing of the surface goes there, along the nearest of 26 directions; where several are
- * as near, along their sum, as into the edge between two faces. In the middle between opposite faces it
+/* Moves a centre within a spacing of the surface to it, along the nearest of 26 directions; where several are
+ * equally near, along their sum, as into the edge between two faces. Half way between opposite faces it
  * stays. */
 static void go_to_surface (const pg_problem *p, disc *d)
 {
@@ -147,7 +148,7 @@ static void go_to_surface (const pg_problem *p, disc *d)
     if (isfinite (along)) pg_shift3 (d->centre, sum, along, d->centre);
 }
 
-/* The node of the least load factor that is not near one of the n discs; as many as there are nodes: none. */
+/* The node with the smallest load factor that is not near one of the n discs; the number of nodes: none. */
 static size_t next_node (const pg_problem *p, const double *factor, size_t n, const disc *spot)
 {
     size_t best = p->cloud.n;
@@ -160,8 +161,8 @@ static size_t next_node (const pg_problem *p, const double *factor, size_t n, co
     return best;
 }
 
-/* Up to SPOTS nodes with the least load factors, HOT_APART spacings apart; their discs have centre and
- * frame. */
+/* Finds up to SPOTS nodes with the smallest load factors, HOT_APART spacings apart, and centre and frame of
+ * their discs. */
 static pg_status find_spots (const search *g, disc *out, size_t *n)
 {
     pg_status status = PG_OK;
@@ -209,7 +210,7 @@ static void place_on (const disc *d, double r, double angle, double *x)
         x[k] = d->centre[k] + r * (cos (angle) * d->across[0][k] + sin (angle) * d->across[1][k]);
 }
 
-/* The share of the disc that lies inside the body. */
+/* Share of the disc that lies inside the body. */
 static double share_inside (const pg_problem *p, const disc *d, double R)
 {
     enum { PLACES = 12 };
@@ -227,8 +228,8 @@ static double energy_of (const pg_problem *p, const disc *d, double R)
     return d->energy * acos (-1) * R * R * share_inside (p, d, R);
 }
 
-/* Tension across the disc over the strength, constant and slope in lambda: its mean over rings, and where the
- * rim has least of it. *rim 0: none of the rim lies inside the body. */
+/* Tension on the disc over the strength, constant and slope in lambda: mean over rings, and least of the rim.
+ * *rim 0: no part of the rim lies inside the body. */
 static pg_status tension_on (const search *g, const disc *d, double R, double mean[2], double least[2],
                              int *rim)
 {
@@ -264,8 +265,8 @@ done:
     return status;
 }
 
-/* The load factor at which a radius comes into being that sets so much free; *rim 0: it lies outside the
- * body. mean: of the tension on it. */
+/* *factor = load factor at which a disc of radius R forms that releases `release` (NULL: by the mean
+ * tension); *rim 0: its rim lies outside the body. */
 static pg_status factor_of (const search *g, const disc *d, double R, const double release[3], double *factor,
                             int *rim)
 {
@@ -286,7 +287,8 @@ done:
     return status;
 }
 
-/* The radius at which the larger of both load factors is least, by the energy of the mean tension. */
+/* Estimates the radius at which the larger of both load factors is smallest, by the energy of the mean
+ * tension. */
 static pg_status estimate (const search *g, disc *d)
 {
     pg_status status = PG_OK;
@@ -301,14 +303,14 @@ done:
     return status;
 }
 
-/* The corners of a disc of the same area. */
+/* x = corners of a polygon of the same area as the disc. */
 static void corners (const disc *d, double R, double *x)
 {
     double step = 2 * acos (-1) / SIDES, r = R * sqrt (step / sin (step));
     for (int q = 0; q < SIDES; q++) place_on (d, r, (q + 0.5) * step, x + 3*q);
 }
 
-/* The discs of several radii. */
+/* The trial discs of several radii. */
 typedef struct { const pg_problem *p; const disc *d; double R[RADII]; } tried_discs;
 
 static pg_status start_disc (const void *context, pg_state *state, size_t k, pg_changes *cut)
@@ -319,7 +321,7 @@ static pg_status start_disc (const void *context, pg_state *state, size_t k, pg_
     return pg_surface_start (state, t->p, SIDES, x, t->d->normal, cut);
 }
 
-/* Without radii, but the first, from which on a loaded part comes loose. */
+/* Fits the energies; radii, except the first, from which on a loaded part comes loose are left out. */
 static void fit (disc *d, const double *R, double energy[][3])
 {
     size_t n = RADII;
@@ -328,8 +330,8 @@ static void fit (disc *d, const double *R, double energy[][3])
     d->sizes.longest = R[RADII - 1];
 }
 
-/* The radius from low to high where strength begins to ask for more than energy, else the end at which the
- * larger is less; d->factor. */
+/* Finds the radius between low and high at which the larger of both load factors is smallest, and
+ * d->factor. */
 static pg_status settle (const search *g, disc *d, double low, double high)
 {
     enum { LOOKS = 25 };
@@ -346,7 +348,7 @@ done:
     return status;
 }
 
-/* Cuts radii about the estimate, then about what these say if that lies outside them. */
+/* Cuts discs with radii about the estimate, then about the radius found if that lies outside them. */
 static pg_status try_disc (const search *g, disc *d)
 {
     static const double share[RADII] = { 0.8, 1, 1.25 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How far the vertices of crack fronts go in an event. With u_i the square root of the energy set free over
+ * How far the vertices of crack fronts go in an event. With u_i the square root of the energy released over
  * the energy taken, u_top the largest, l the length of a facet,
  *
  *   d_i / l = p (1 - mu / u_i - (R d)_i)  where that is positive, else 0,
@@ -10,7 +10,7 @@
  *
  *   (R d)_i = 1 / (2 pi) int (d_i - d (s)) / c^2 ds.
  *
- * A vertex that runs ahead of its neighbours sets less energy free there: what is asked for are ways whose
+ * A vertex that runs ahead of its neighbours releases less energy there: what is asked for are ways whose
  * u fits them AFTER the step, so that no wave is overshot, however short it is. A wave d = cos k s has R d =
  * |k| / 2 d, in the sums over vertices too, if those next to each other count one and a half times: for
  * sum_n (1 - cos n x) / n^2 = pi x / 2 - x^2 / 4, and the half takes the second term away. Measured values
@@ -27,7 +27,7 @@
 
 static const double power = 8;                         /* p */
 
-/* Half of the way to both neighbours. */
+/* Sets the width of each vertex: half of the distances to both neighbours. */
 static void set_widths (const pg_front *front, front_vertex *v)
 {
     size_t n = front->n;
@@ -38,7 +38,7 @@ static void set_widths (const pg_front *front, front_vertex *v)
     }
 }
 
-/* w_i R_ij of one front, whose first vertex is number `first` of n. */
+/* R += w_i R_ij of one front, whose first vertex is number `first` of n. */
 static void add_front (const pg_front *front, const front_vertex *v, size_t first, size_t n, double *R)
 {
     const double pi = acos (-1);
@@ -52,7 +52,7 @@ static void add_front (const pg_front *front, const front_vertex *v, size_t firs
         }
 }
 
-/* Fronts are taken to be far from each other: one does not shield another. */
+/* Fills the widths and w_i R_ij. Fronts are taken to be far from each other: one does not shield another. */
 pg_status fronts_couple (front_growth *f, const pg_front *front)
 {
     pg_status status = PG_OK;
@@ -73,8 +73,8 @@ done:
     return status;
 }
 
-/* Vertex `at` joins the m that go: a row of the factor L of their equations, and of the solutions of L y for
- * the right sides w and w / u. */
+/* Adds vertex `at` to the m that advance: a row of the factor L of their equations, and of the solutions of L
+ * y for the right-hand sides w and w / u. */
 static void join (front_growth *f, size_t m, size_t at, double l)
 {
     const front_vertex *v = &f->vertex[at];
@@ -93,7 +93,7 @@ static void join (front_growth *f, size_t m, size_t at, double l)
     f->going[m] = at;
 }
 
-/* The ways of the m that go are a - mu b: a and b from L. */
+/* Finds a and b from L: the ways of the m vertices that advance are a - mu b. */
 static void solve (front_growth *f, size_t m)
 {
     memcpy (f->line, f->forward, 2 * m * sizeof *f->line);

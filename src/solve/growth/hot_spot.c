@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Hot spots: places where the largest principal stress, averaged over a disc of one spacing, reaches the
- * strength at the least load factor, or the shear stress on some plane that of Coulomb. No crack
- * through such a place begins below it, so that most places need not be looked at any closer. */
+ * Hot spots: points where the largest principal stress, averaged over a disc of one spacing, reaches the
+ * strength at the smallest load factor, or the shear stress on some plane that of Coulomb. No crack through
+ * such a point begins below it, so that most points need not be examined further. */
 #include "facet_growth.h"
 #include "hot_spot.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
-enum { DISC = 7 };                                     /* places of the disc */
-static const double even = 0.02;                       /* share of the load factor */
+enum { DISC = 7 };                                     /* sampling points of the disc */
+static const double even = 0.02;  /* relative difference of load factors that counts as none */
 
 double hot_strength_cap (double modulus, double energy, double h)
 {
@@ -34,9 +34,9 @@ int pg_strength_of (const pg_problem *p, size_t material, pg_strength *out)
 }
 
 /* ---- stress -------------------------------------------------------------------------------------------- */
-/* The least lambda >= 0 at which w m + R reaches f, m the mean of the principal stresses and R half their
- * difference, a linear polynomial and the root of a quadratic one, so that (f - w m)^2 = R^2 with w m <= f.
- * w = 1: the largest principal stress. */
+/* Smallest lambda >= 0 at which w m + R reaches f, m the mean of the principal stresses and R half their
+ * difference, a linear polynomial and the root of a quadratic one, so that (f - w m)^2 = R^2 with w m <= f. w
+ * = 1: the largest principal stress. */
 static double strength_factor (const affine_stress *s, double f, double w)
 {
     const double *c = s->constant, *d = s->slope;
@@ -54,14 +54,15 @@ static double strength_factor (const affine_stress *s, double f, double w)
     return least;
 }
 
-/* R + m sin phi = c cos phi on the planes at 45 degrees - phi/2 to the largest pressure. */
+/* Load factor of shear failure: R + m sin phi = c cos phi on the planes at 45 degrees - phi/2 to the largest
+ * pressure. */
 double hot_shear_factor (const affine_stress *s, double c, double slope)
 {
     double cosine = 1 / sqrt (1 + slope * slope);
     return strength_factor (s, c * cosine, slope * cosine);
 }
 
-/* Tension or shear, whichever is reached first; *slides: shear. */
+/* Load factor at which tension or shear reaches its strength first; *slides 1: shear. */
 static double reached (const affine_stress *s, const pg_fracture_limits *limits, int *slides)
 {
     double tension = limits->strength > 0 ? strength_factor (s, limits->strength, 1) : INFINITY,
@@ -70,7 +71,7 @@ static double reached (const affine_stress *s, const pg_fracture_limits *limits,
     return *slides ? shear : tension;
 }
 
-/* The angle (rad, from x) across which the largest principal stress acts: that of a crack. */
+/* Angle (rad, from x) of a crack across the largest principal stress. */
 static double crack_angle (const affine_stress *s, double lambda)
 {
     double v[3];
@@ -90,7 +91,7 @@ static affine_stress affine_of (const trial_fields *f, const double *first, cons
     return s;
 }
 
-/* At n places (n x 2), each the mean of `count` of them that follow each other and have body; n / count
+/* Stress at n points (n x 2), averaged over each `count` successive ones that lie in the body; n / count
  * results. */
 pg_status hot_stress (const search *g, size_t n, size_t count, const double *x, affine_stress *out)
 {
@@ -109,7 +110,7 @@ pg_status hot_stress (const search *g, size_t n, size_t count, const double *x, 
         int inside = 0;
         for (size_t q = i * count; q < (i + 1) * count; q++) {
             double place[3] = { x[2*q], x[2*q + 1], 0 };
-            /* the first stands for all where none has body */
+            /* where none lies in the body the last one stands for all */
             int last = q + 1 == (i + 1) * count && !inside;
             if (!pg_problem_has_body (s->problem, place) && !last) continue;
             inside++;
@@ -124,8 +125,8 @@ done:
     return status;
 }
 
-/* What a crack at that angle takes at x: energy in J/m^2, strength as far as the points can tell; 0: none can
- * grow there, or has no strength given. */
+/* Limits of a crack at that angle at x: energy in J/m^2, strength as far as the spacing resolves it; 0: none
+ * can grow there, or no strength is given. */
 int hot_resists (const search *g, const double *x, double angle, double h, double modulus,
                     pg_fracture_limits *out)
 {
@@ -184,7 +185,8 @@ done:
     return status;
 }
 
-/* Averages over a disc about a place, and what the place bears then. */
+/* Averages the stress over a disc about a point, and finds the load factor at which that reaches the
+ * strength. */
 static pg_status average (const search *g, size_t node, hot_spot *out)
 {
     pg_status status = PG_OK;
@@ -192,7 +194,7 @@ static pg_status average (const search *g, size_t node, hot_spot *out)
     double x[2 * DISC], sixth = acos (-1) / 3;
     pg_fracture_limits limits;
     for (int k = 0; k < DISC; k++) {
-        /* The centre and six places around it. */
+        /* the centre and six points around it */
         double r = k ? 0.35 * out->h : 0;
         x[2*k] = out->x[0] + r * cos (k * sixth), x[2*k + 1] = out->x[1] + r * sin (k * sixth);
     }
@@ -206,8 +208,8 @@ done:
     return status;
 }
 
-/* The place about a node that reaches its strength first, by averaged stresses: the best of the nodes around,
- * the middle of those that are equal. */
+/* Finds the point near a node that reaches its strength first, by averaged stresses: the best of the nodes
+ * around, the middle of those that are equal. */
 static pg_status settle (const search *g, size_t node, const double *factor, hot_spot *out)
 {
     pg_status status = PG_OK;
@@ -234,8 +236,8 @@ done:
     return status;
 }
 
-/* The node with the least factor that is not near one of the spots; -1: none below the best. Nodes in the
- * surface, where the same stress sets more free, come first among those that are about equal. */
+/* The node with the smallest factor below the best that is not near one of the spots; -1: none. Nodes at the
+ * surface, where the same stress releases more energy, come first among about equal ones. */
 static long next_node (const search *g, const double *factor, const unsigned char *rim, size_t n,
                        const hot_spot *spot)
 {
@@ -254,7 +256,7 @@ static long next_node (const search *g, const double *factor, const unsigned cha
     return found;
 }
 
-/* 1: the body ends within a spacing h of a node, asked along the four axes. */
+/* 1: the body ends within a spacing h of a node, along one of the four axis directions. */
 static int is_rim (const pg_problem *p, size_t i)
 {
     double h = pg_problem_spacing (p, PG_NODES, i), quarter = 0.5 * acos (-1);
@@ -266,8 +268,8 @@ static int is_rim (const pg_problem *p, size_t i)
     return 0;
 }
 
-/* Up to `most` places with load factors below the best that is known, each the first to reach its
- * strength among those around it, none within HOT_APART spacings of another. */
+/* Finds up to `most` points with load factors below the best known one, each the first to reach its strength
+ * among those around it, none within HOT_APART spacings of another. */
 pg_status hot_spots (const search *g, size_t most, hot_spot *out, size_t *n)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where no crack is, one begins when two conditions hold together (Leguillon 2002): the tension across it
+ * A new crack begins when two conditions hold together (Leguillon 2002): the tension across it
  * reaches the strength all along its length l, and what it sets free reaches G0 l t. The first holds from
  * lambda_S (l) on, which grows with l where the stress falls off; the second from lambda_E (l) on, which
  * falls with l. The least load factor at which both hold is that of the first crack, and the length there
@@ -9,7 +9,7 @@
  * A crack is tried at hot spots (hot_spot.c) across the largest tension: from the surface if that is near,
  * else to both sides. First its energy is estimated from the stress along it, as of a crack in a half
  * plane or a plane, which orders the hot spots and tells about what length to try; then several lengths
- * about that are cut, together, with the factor at hand (trial_release.c). Where a tip lies among the
+ * about that are cut, together, with the factor at hand (trial_release.c). The position of a tip among the
  * points is worth a tenth of the spacing in length; lengths that are no multiples of each other average
  * that: energy over l^2, which an even field would make constant, is fitted by a straight line. */
 #include "facet_growth.h"
@@ -20,43 +20,43 @@
 #include <string.h>
 
 enum {
-    MOST_SPOTS = 12,                                   /* hot spots in materials that are looked at */
-    MOST_ON_INTERFACES = 4,                            /* hot spots on interfaces, besides */
-    MOST_TRIED = 6,                                    /* hot spots at which cracks are cut */
+    MOST_SPOTS = 12,                                   /* most hot spots in materials that are examined */
+    MOST_ON_INTERFACES = 4,                            /* most hot spots on interfaces, in addition */
+    MOST_TRIED = 6,                                    /* most hot spots at which cracks are cut */
     LENGTHS = 6,                                       /* lengths of a crack that are tried together */
     ROUNDS = 5,
-    PER_SPACING = 2,                                   /* places of stress along a crack */
+    PER_SPACING = 2,                                   /* stress points along a crack, per spacing */
     MOST_PLACES = 400,
-    LATERAL = 3                                        /* places beside each, to average its stress over */
+    LATERAL = 3                                        /* points side by side over which stress is averaged */
 };
-static const double even = 0.02;                       /* share of the load factor */
-/* Spacings: a closed crack that is shorter has no room for two pieces of its faces. */
+static const double even = 0.02;  /* relative difference of load factors that counts as none */
+/* Least length of a closed crack, spacings: a shorter one has no room for two pieces of its faces. */
 static const double CLOSED_LEAST = 4;
-/* What an estimate may be off by before its spot is not looked at any closer. */
+/* Error of an estimate: spots above the best by more than this factor are not examined further. */
 static const double doubt = 1.25;
 
-/* A crack that is tried: from origin - a direction to origin + b direction; a = 0 if it begins in the
- * surface. */
+/* A trial crack from origin - a direction to origin + b direction; a = 0 if it begins in the surface. */
 typedef struct {
     double origin[3], direction[3], angle;             /* m, unit vector, rad */
-    double reach[2];                                   /* towards -direction, +direction: length inside, m */
+    double reach[2];  /* length inside the body towards -direction, +direction, m */
     int    edge;
     double h, modulus;                                 /* m, Pa */
-    const pg_interface *interface;                     /* that it runs along */
+    const pg_interface *interface;                     /* interface along which it runs, or NULL */
     shear_start shear;                                 /* sense != 0: it slides under pressure */
-    double least;                                      /* shortest that is tried, m */
-    /* places along it, from -reach to +reach; stress across over strength: c + lambda s; strength, Pa;
-     * energy needed, J/m */
+    double least;                                      /* shortest length that is tried, m */
+    /* points along it, from -reach to +reach, m; stress on it over strength: c + lambda s; energy needed,
+     * J/m */
     size_t n;
     double at[MOST_PLACES], c[MOST_PLACES], s[MOST_PLACES], needed[MOST_PLACES];
-    /* what drives it there, Pa: constant + lambda slope; stress of the crack's frame (shear_initiation.h) */
+    /* driving stress there, Pa: constant + lambda slope; stress in the crack's frame, Pa
+     * (shear_initiation.h) */
     double drive[MOST_PLACES][2], face[MOST_PLACES][4];
-    double factor, about;                              /* estimates: load factor, and length there, m */
-    trial_sizes sizes;                                 /* what lengths set free */
+    double factor, about;                              /* estimates: load factor, length, m */
+    trial_sizes sizes;                                 /* energy that lengths release */
 } trial_crack;
 
 /* ---- where it runs ------------------------------------------------------------------------------------- */
-/* Puts the origin into the body if a lattice has put the node a little outside. */
+/* Moves the origin into the body if a lattice has put the node a little outside. */
 static void put_inside (const search *g, trial_crack *c)
 {
     enum { PARTS = 16 };
@@ -72,9 +72,9 @@ static void put_inside (const search *g, trial_crack *c)
         }
 }
 
-/* Direction, and how far the body goes to both sides: from the surface if that is within a spacing, but from
- * neither of two that are as near on both sides, for which of them would be left to the sense of the
- * direction. */
+/* Sets the direction and the reach in the body to both sides. The crack starts from the surface if that is
+ * within a spacing; not if surfaces on both sides are equally near, as the sense of the direction would
+ * decide between them. */
 static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c)
 {
     const pg_problem *p = g->w->system->problem;
@@ -93,7 +93,7 @@ static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c
     c->reach[0] = trial_reach (p, g->state, c->origin, back, limit, &what);
     c->reach[1] = trial_reach (p, g->state, c->origin, c->direction, limit, &what);
     c->edge = fmin (c->reach[0], c->reach[1]) <= c->h + same && fabs (c->reach[0] - c->reach[1]) > 2 * same;
-    if (c->edge && c->reach[1] < c->reach[0]) {        /* runs away from the near surface */
+    if (c->edge && c->reach[1] < c->reach[0]) {        /* so that it runs away from the near surface */
         double swap = c->reach[0];
         c->reach[0] = c->reach[1], c->reach[1] = swap;
         memcpy (c->direction, back, sizeof back);
@@ -104,15 +104,14 @@ static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c
     c->reach[1] = fmin (c->reach[0] + c->reach[1], limit), c->reach[0] = 0;
 }
 
-/* Where the places of a crack are, and those beside them over which the stress is averaged (x: LATERAL of
- * each). */
+/* Sets the points of a crack and those beside them over which the stress is averaged (x: LATERAL of each). */
 static void set_places (trial_crack *c, double *x)
 {
     double step = c->h / PER_SPACING, n[2] = { -c->direction[1], c->direction[0] };
     long first = c->edge ? 0 : -(long) floor (c->reach[0] / step);
     for (size_t i = 0; i < c->n; i++) {
         double s = c->at[i] = (double) (first + (long) i) * step;
-        if (c->edge && i == 0) s = 0.1 * step;         /* the surface itself is no place of the body */
+        if (c->edge && i == 0) s = 0.1 * step;         /* the surface itself is not a point of the body */
         for (int q = 0; q < LATERAL; q++) {
             double side = (q - LATERAL / 2) * c->h / LATERAL, *at = x + 2 * (LATERAL * i + (size_t) q);
             for (int k = 0; k < 2; k++) at[k] = c->origin[k] + s * c->direction[k] + side * n[k];
@@ -120,7 +119,7 @@ static void set_places (trial_crack *c, double *x)
     }
 }
 
-/* What the crack takes at a place: along an interface that of the interface, as far as that goes on straight;
+/* Limits of the crack at a point: along an interface those of the interface, as far as it goes straight on;
  * 0: it cannot go on there. */
 static int resists (const search *g, const trial_crack *c, const double *x, pg_fracture_limits *out)
 {
@@ -132,15 +131,15 @@ static int resists (const search *g, const trial_crack *c, const double *x, pg_f
     return 1;
 }
 
-/* Place i by its limits and its stress: that on the plane of the crack, that over the strength, what drives
- * the crack, and the energy that it takes. */
+/* Sets point i by its limits and stress: stress on the plane of the crack, the same over the strength, the
+ * driving stress, and the energy that it takes. */
 static void judge_place (trial_crack *c, size_t i, const pg_fracture_limits *limits,
                          const affine_stress *stress, double thickness)
 {
     double a = -c->direction[1], b = c->direction[0], across[3] = { a * a, b * b, 2 * a * b },
            along[3] = { a * b, -a * b, b * b - a * a }, *face = c->face[i];
     int shear = c->shear.sense != 0;
-    /* tension alone, or shear less what pressure adds to the strength */
+    /* tension alone, or shear reduced by what pressure adds to the strength */
     double strength = shear ? limits->cohesion : limits->strength, weight = shear ? limits->slope : 1;
     if (!(strength > 0)) return;
     c->needed[i] = (shear ? limits->shear : limits->energy) * thickness;
@@ -153,7 +152,7 @@ static void judge_place (trial_crack *c, size_t i, const pg_fracture_limits *lim
     for (int k = 0; k < 2; k++) c->drive[i][k] = shear_drive (&c->shear, face, k);
 }
 
-/* Stress and limits along the crack. */
+/* Finds stress and limits along the crack. */
 static pg_status look_along (const search *g, trial_crack *c)
 {
     pg_status status = PG_OK;
@@ -169,7 +168,7 @@ static pg_status look_along (const search *g, trial_crack *c)
         double place[3] = { c->origin[0] + c->at[i] * c->direction[0],
                             c->origin[1] + c->at[i] * c->direction[1] };
         pg_fracture_limits limits;
-        /* where none can grow no crack goes through */
+        /* no crack goes through where none can grow */
         c->needed[i] = INFINITY;
         if (resists (g, c, place, &limits))
             judge_place (c, i, &limits, &stress[i], g->w->system->problem->cloud.thickness);
@@ -180,7 +179,7 @@ done:
 }
 
 /* ---- what it needs ------------------------------------------------------------------------------------- */
-/* The parts of a crack of length l behind and ahead of the origin: equal, as far as the body goes. */
+/* end = parts of a crack of length l behind and ahead of the origin, m: equal, as far as the body goes. */
 static void ends_of (const trial_crack *c, double l, double end[2])
 {
     end[0] = c->edge ? 0 : 0.5 * l, end[1] = l - end[0];
@@ -189,21 +188,23 @@ static void ends_of (const trial_crack *c, double l, double end[2])
     for (int k = 0; k < 2; k++) end[k] = fmin (end[k], c->reach[k]);
 }
 
-/* The place at or behind one. */
+/* Index of the point at or before a position along the crack. */
 static size_t nearest_place (const trial_crack *c, double at)
 {
     double step = c->h / PER_SPACING, i = floor ((at - c->at[0]) / step);
     return i < 0 ? 0 : i > (double) (c->n - 1) ? c->n - 1 : (size_t) i;
 }
 
-/* A place along the crack between those that were looked at: from *i on, the share of the way to *j. */
+/* Interpolation of a position along the crack: between points *i and *j, returns the share of the way to
+ * *j. */
 static double between (const trial_crack *c, double at, size_t *i, size_t *j)
 {
     *i = nearest_place (c, at), *j = *i + 1 < c->n ? *i + 1 : *i;
     return *j > *i ? fmin (1, fmax (0, (at - c->at[*i]) / (c->at[*j] - c->at[*i]))) : 0;
 }
 
-/* Stress over strength there, linear; beyond those places constant; and what drives the crack, Pa. */
+/* out = stress over strength at a position: linear between points, constant beyond; drive_at: driving stress,
+ * Pa. */
 static void stress_at (const trial_crack *c, double at, double out[2])
 {
     size_t i, j;
@@ -224,7 +225,8 @@ double trial_stress_factor (const double v[2])
     return v[1] > 0 ? (1 - v[0]) / v[1] : INFINITY;
 }
 
-/* lambda_S of a length: all along it the strength is reached; *where: the stress that is last to do so. */
+/* lambda_S of a length: load factor from which on the strength is reached all along it; where: the stress
+ * that reaches it last. */
 static double lambda_S (const trial_crack *c, double l, double where[2])
 {
     double end[2], v[2], worst = -1;
@@ -239,13 +241,13 @@ static double lambda_S (const trial_crack *c, double l, double where[2])
     return worst;
 }
 
-/* What a crack of that length takes, J. */
+/* Energy that a crack of that length takes, J. */
 static double energy_of (const trial_crack *c, double l)
 {
     double end[2], sum = 0, length = 0;
     ends_of (c, l, end);
     for (size_t i = 0; i < c->n; i++) {
-        /* the part of the crack that is nearest to this place */
+        /* the part of the crack that is nearest to this point */
         double low = i ? 0.5 * (c->at[i - 1] + c->at[i]) : -INFINITY,
                high = i + 1 < c->n ? 0.5 * (c->at[i] + c->at[i + 1]) : INFINITY;
         double part = fmin (high, end[1]) - fmax (low, -end[0]);
@@ -255,9 +257,8 @@ static double energy_of (const trial_crack *c, double l)
 }
 
 /* ---- an estimate --------------------------------------------------------------------------------------- */
-/* K of a crack of length l, Pa m^(1/2), of the constant part of the stress and of that with lambda: that
- * of the stress across it in a half plane (from the surface; Hartranft, Sih 1973) or in the plane, the
- * mean of both tips. */
+/* K of a crack of length l, Pa m^(1/2), due to the constant part of the stress and to that with lambda: in a
+ * half plane (from the surface; Hartranft, Sih 1973) or in the plane, mean of both tips. */
 static void estimate_K (const trial_crack *c, double l, double K[2])
 {
     enum { PARTS = 24 };
@@ -274,7 +275,7 @@ static void estimate_K (const trial_crack *c, double l, double K[2])
     }
 }
 
-/* The length at which the larger of both factors is least, by estimate. */
+/* Estimates the length at which the larger of both load factors is smallest. */
 static void estimate (const search *g, trial_crack *c)
 {
     enum { STEPS = 200 };
@@ -307,7 +308,8 @@ static double lambda_E (const trial_crack *c, double l)
     return trial_energy_factor (polynomial, energy_of (c, l));
 }
 
-/* Lengths about one, a quarter of a spacing apart at least, from the least on. Returns how many. */
+/* Chooses lengths about a given one, at least a quarter of a spacing apart, from the shortest on. Returns how
+ * many. */
 static size_t choose_lengths (const trial_crack *c, double about, double *length)
 {
     static const double share[LENGTHS] = { 0.6, 0.75, 0.9, 1.05, 1.2, 1.4 };
@@ -315,7 +317,7 @@ static size_t choose_lengths (const trial_crack *c, double about, double *length
     size_t n = 0;
     for (int k = 0; k < LENGTHS; k++) {
         double l = fmax (share[k] * about, n ? last + 0.25 * c->h : c->least);
-        /* less than half a spacing left: through */
+        /* less than half a spacing left: cut through */
         if (all - l < 0.5 * c->h) l = all;
         length[n++] = last = l;
         if (l >= all) break;
@@ -323,8 +325,8 @@ static size_t choose_lengths (const trial_crack *c, double about, double *length
     return n;
 }
 
-/* Energies by a power of the length, least squares of the logarithms: for a stress that falls off over a
- * short way (a small hole), where a straight line through energies over length^2 would soon come down to
+/* Fits energies by a power of the length, least squares of the logarithms: for a stress that falls off over a
+ * short distance (a small hole), where a straight line through energies over length^2 would soon fall to
  * zero. */
 static void fit_power (trial_sizes *c, size_t n, const double *length, double energy[][3])
 {
@@ -334,7 +336,7 @@ static void fit_power (trial_sizes *c, size_t n, const double *length, double en
         if (!(all > 0)) return;
         x += u, y += v, xx += u * u, xy += u * v;
     }
-    /* between that of a long crack from a point and that of an even field */
+    /* between a long crack loaded at a point and one in a uniform field */
     c->power = fmin (2, fmax (1, (xy - x * y / (double) n) / (xx - x * x / (double) n)));
     for (int q = 0; q < 3; q++) {
         c->release[q] = c->slope[q] = 0;
@@ -360,8 +362,8 @@ void trial_fit (trial_sizes *c, size_t n, const double *size, double energy[][3]
     }
 }
 
-/* A straight line through energies over length^2; where l (value + slope l) falls with l the line would ask
- * for more load for a longer crack. */
+/* Fits a straight line to energies over length^2; where l (value + slope l) falls with l, so that a longer
+ * crack would need more load, a power. */
 static void fit (trial_sizes *c, size_t n, const double *length, double energy[][3])
 {
     trial_fit (c, n, length, energy, 2);
@@ -370,7 +372,7 @@ static void fit (trial_sizes *c, size_t n, const double *length, double energy[]
     if (n > 1 && value + 2 * slope * length[n - 1] <= 0) fit_power (c, n, length, energy);
 }
 
-/* The ends of a crack of length l, and which of them are tips. */
+/* Finds the ends of a crack of length l; returns which of them are tips. */
 static int place_ends (const trial_crack *c, double l, double *from, double *to)
 {
     double end[2];
@@ -384,7 +386,7 @@ static int place_ends (const trial_crack *c, double l, double *from, double *to)
     return open;
 }
 
-/* The fields without what the faces of a closed crack of that length bear: means along it. */
+/* Finds the fields less what the faces of a closed crack of that length bear, by means along it. */
 static pg_status free_fields (const search *g, const trial_crack *c, double l, trial_fields *out)
 {
     double end[2], mean[4] = { 0 };
@@ -399,7 +401,7 @@ static pg_status free_fields (const search *g, const trial_crack *c, double l, t
     return shear_free_fields (g, &c->shear, c->angle, mean, out);
 }
 
-/* The cracks of several lengths; pg_crack_start. */
+/* Trial cracks of several lengths, as arguments of pg_crack_start. */
 typedef struct {
     const pg_problem *p;
     double from[3 * LENGTHS], to[3 * LENGTHS];
@@ -412,7 +414,7 @@ static pg_status start_crack (const void *context, pg_state *state, size_t k, pg
     return pg_crack_start (state, t->p, t->from + 3*k, t->to + 3*k, t->open[k], cut);
 }
 
-/* Cuts lengths about one and fits what they set free. */
+/* Cuts cracks of lengths about a given one and fits the energy that they release. */
 static pg_status try_lengths (const search *g, trial_crack *c, double about)
 {
     pg_status status = PG_OK;
@@ -429,7 +431,7 @@ static pg_status try_lengths (const search *g, trial_crack *c, double about)
     if (c->shear.sense) PG_TRY (free_fields (g, c, about, &fields));
     PG_TRY (trial_release (g->w, g->state, &fields, n, cut, form));
     for (size_t k = 0; k < n; k++) trial_polynomial (g->f, &form[k], energy[k]);
-    /* what cuts the body through is no longer one of a series */
+    /* a cut through the body does not belong to the series */
     while (n > 1
            && (length[n - 1] >= c->reach[0] + c->reach[1] || isinf (energy[n - 1][0] + energy[n - 1][2])))
         n--;
@@ -439,7 +441,7 @@ done:
     return status;
 }
 
-/* The larger of the two factors; *over: energy asks for more than strength. */
+/* The larger of both load factors; *over 1: it is that of energy. */
 static double both (const trial_crack *c, double l, int *over)
 {
     double unused[2], e = lambda_E (c, l), s = lambda_S (c, l, unused);
@@ -447,7 +449,7 @@ static double both (const trial_crack *c, double l, int *over)
     return fmax (e, s);
 }
 
-/* The length from low to high at which the larger of the two factors is least: where they cross, else at an
+/* Length between low and high at which the larger of both factors is smallest: where they cross, else at an
  * end. */
 static double best_length (const trial_crack *c, double low, double high, double *factor)
 {
@@ -467,7 +469,7 @@ static double best_length (const trial_crack *c, double low, double high, double
     return high;
 }
 
-/* Tries a crack: lengths about the estimate, then about what these say, until it lies among those tried. */
+/* Tries a crack: lengths about the estimate, then about the result, until that lies among those tried. */
 static pg_status try_crack (const search *g, trial_crack *c, trial_start *out)
 {
     pg_status status = PG_OK;
@@ -486,7 +488,7 @@ static pg_status try_crack (const search *g, trial_crack *c, trial_start *out)
     lambda_S (c, l, out->stress);
     trial_release_of (&c->sizes, l, out->release);
     out->energy = energy_of (c, l);
-    /* a facet of less than a spacing cuts next to nothing */
+    /* a facet shorter than a spacing cuts hardly any bond */
     out->length = fmin (fmax (l, c->least), all);
     out->open = place_ends (c, out->length, out->from, out->to), out->slides = c->shear.sense != 0;
 done:
@@ -494,7 +496,7 @@ done:
 }
 
 /* ---- the search ---------------------------------------------------------------------------------------- */
-/* Keeps the best of the tried ones, and those that tie with it. */
+/* Keeps the best of the tried cracks, and those that tie with it. */
 static size_t keep_best (trial_start *out, size_t n, int one)
 {
     size_t kept = 0, best = 0;
@@ -507,7 +509,7 @@ static size_t keep_best (trial_start *out, size_t n, int one)
     return kept;
 }
 
-/* The crack with the least estimate among those that have none yet; SIZE_MAX: none below the limit. */
+/* The crack with the smallest estimate that was not tried yet; SIZE_MAX: none below the limit. */
 static size_t next_crack (const trial_crack *c, size_t n, const unsigned char *done, double limit)
 {
     size_t best = SIZE_MAX;
@@ -516,7 +518,8 @@ static size_t next_crack (const trial_crack *c, size_t n, const unsigned char *d
     return best;
 }
 
-/* The crack of a hot spot (its plane of number `side`), and an estimate. *never 1: there is none. */
+/* Prepares the crack of a hot spot (its plane number `side`), with an estimate. *never 1: no crack is
+ * possible. */
 static pg_status prepare (const search *g, const hot_spot *spot, int side, trial_crack *c,
                           unsigned char *never)
 {
@@ -548,7 +551,7 @@ pg_status trial_initiation (trials *w, const pg_state *state, const trial_fields
     PG_ALLOC (c, 2 * nspot);
     for (size_t i = 0; i < nspot; i++) {
         about += !spot[i].interface && spot[i].factor <= spot[0].factor * (1 + even);
-        /* in shear two planes are as near to failure */
+        /* in shear two planes are equally near to failure */
         for (int side = 0; side <= spot[i].slides; side++, ncrack++)
             PG_TRY (prepare (&g, &spot[i], side, &c[ncrack], &done_[ncrack]));
     }

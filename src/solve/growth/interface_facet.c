@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where interfaces run: a place is of the material of the nearest evaluation point, and an interface lies
- * where that changes. Points of evaluation are no further from an interface along the edges of cells than
- * half a spacing, at equal distances on both sides, so that such an interface is found exactly. */
+ * Positions of interfaces: a point is of the material of the nearest evaluation point, and an interface lies
+ * where that changes. Evaluation points are no further from an interface along the edges of cells than half a
+ * spacing, at equal distances on both sides, so that such an interface is found exactly. */
 #include "hot_spot.h"
 #include "interface_facet.h"
 #include <math.h>
@@ -30,7 +30,7 @@ static int material_at (const trials *w, const double *x)
     return p->block[bulk_of (p)][point < 0 ? 0 : point];
 }
 
-/* A place on a curve: at an angle on a circle, or at a distance along a line. */
+/* A curve: a circle, along which s is an angle, or a line, along which it is a distance. */
 typedef struct { const double *x, *direction; double radius; } curve;
 
 static void place_on (const curve *c, double s, double *out)
@@ -41,7 +41,7 @@ static void place_on (const curve *c, double s, double *out)
     out[2] = 0;
 }
 
-/* Between two places of different materials. */
+/* Finds the crossing between two points (low, high) of different materials by bisection. */
 static void halve (const trials *w, const curve *c, double low, double high, crossing *out)
 {
     double x[3];
@@ -65,7 +65,7 @@ size_t interface_around (trials *w, const double *x, double radius, size_t most,
     size_t n = 0;
     int before = -1;
     for (int k = 0; k <= PARTS && n < most; k++) {
-        /* begins where no interface along an axis lies */
+        /* starts at an angle where no interface along an axis lies */
         double s = turn * (k + 0.37) / PARTS;
         place_on (&c, s, at);
         int now = pg_problem_has_body (p, at) ? material_at (w, at) : -1;
@@ -94,7 +94,7 @@ int interface_ahead (trials *w, const double *x, const double *direction, double
 }
 
 /* ---- where cracks may begin ---------------------------------------------------------------------------- */
-/* Does node i see a node of another material? */
+/* 1: node i has a node of another material among its neighbours. */
 static int is_beside (const pg_problem *p, size_t i)
 {
     const pg_family *f = &p->bonds.rows[PG_NODES].family;
@@ -103,7 +103,7 @@ static int is_beside (const pg_problem *p, size_t i)
     return 0;
 }
 
-/* The place of an interface near a node, its direction there, and its entry; 0: none with a strength. */
+/* Finds the point of an interface near a node, with its direction and entry; 0: none with a strength. */
 static int lies_near (trials *w, size_t node, hot_spot *out)
 {
     const pg_problem *p = w->system->problem;
@@ -134,7 +134,7 @@ static double factor_across (const hot_spot *s, const affine_stress *stress)
     return slope > 0 ? (f - constant) / slope : INFINITY;
 }
 
-/* The best of the places that lie apart from those already kept. */
+/* Keeps the best of the points that lie apart from those already kept. */
 static void keep_apart (size_t count, const hot_spot *all, double limit, size_t most, hot_spot *out,
                         size_t *n)
 {
@@ -152,7 +152,8 @@ static void keep_apart (size_t count, const hot_spot *all, double limit, size_t 
     }
 }
 
-/* Stresses are averaged over two places, a quarter of a spacing to both sides of the interface. */
+/* Finds hot spots of interfaces; stresses are averaged over two points, a quarter of a spacing to both
+ * sides. */
 pg_status hot_interfaces (const search *g, size_t most, hot_spot *out, size_t *n)
 {
     pg_status status = PG_OK;

@@ -29,7 +29,7 @@ double shear_drive (const shear_start *c, const double face[4], int k)
     return c->sense * face[2 + k] + c->friction * face[k] - (k ? 0 : c->cohesion);
 }
 
-/* Adds u of the uniform stress (normal, shear) of the frame of the crack, times -1, to the field. */
+/* d -= displacement of the uniform stress (normal, shear) in the frame of the crack. */
 static void take_off (const pg_system *s, const pg_material *m, double angle, double normal, double shear,
                       double *d)
 {
@@ -54,11 +54,11 @@ pg_status shear_free_fields (const search *g, const shear_start *c, double angle
     const pg_system *s = w->system;
     *out = *g->f;
     for (int a = 0; a < g->f->n; a++) {
-        /* one field: of load factor 1 alone; two: at 0 and at 1 */
+        /* one field: at load factor 1; two: at 0 and at 1 */
         double normal = g->f->n == 1 ? face[1] : face[0] + a * face[1];
         if (!w->excess[a]) PG_ALLOC (w->excess[a], s->ndof);
         for (size_t i = 0; i < s->ndof; i++) w->excess[a][i] = g->f->d[a][i];
-        /* where tension parts the faces they bear nothing */
+        /* faces parted by tension bear nothing */
         if (normal < 0)
             take_off (s, c->material, angle, normal, c->sense * (c->cohesion - c->friction * normal),
                       w->excess[a]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a solver has measured at the tips of cracks, one entry for each, for the history of a run and its
- * report. Tips that have ended keep their last values. In space: at the vertices of fronts, as they were in
- * the last step. */
+ * Values that a solver has measured at crack tips, one entry for each, for the history of a run and its
+ * report. Tips that have ended keep their last values. 3D: at the vertices of fronts, as they were in the
+ * last step. */
 #include "solve/run/solve.h"
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Trial facets: the next facet of tips that have no room for a domain integral, and new cracks. What is
- * offered carries the energy that it sets free, found on a copy of the state. A facet of length l comes into
- * being at the load factor at which that reaches G0 l t, t the thickness (Griffith 1921). */
+ * Trial facets: the next facet of tips that have no room for a domain integral, and new cracks. A candidate
+ * has the energy that it releases, found on a copy of the state. A facet of length l forms at the load factor
+ * at which that reaches G0 l t, t the thickness (Griffith 1921). */
 #include "front_growth.h"
 #include "hot_spot.h"
 #include "interface_facet.h"
@@ -14,7 +14,7 @@ static void place_at (const double *x, const double *direction, double s, double
     out[0] = x[0] + s * direction[0], out[1] = x[1] + s * direction[1], out[2] = 0;
 }
 
-/* What lies at x + s direction, seen from x + from direction. */
+/* Which obstacle (PG_MEETS_...) lies between x + from direction and x + s direction. */
 static int seen (const pg_problem *p, const pg_state *state, const double *x, const double *direction,
                  double from, double s)
 {
@@ -26,7 +26,7 @@ static int seen (const pg_problem *p, const pg_state *state, const double *x, co
                                                                                         : PG_MEETS_NOTHING;
 }
 
-/* The search goes in steps of an eighth of the spacing and halves the last one until the place is exact. */
+/* Searches in steps of an eighth of the spacing and bisects the last one until the point is exact. */
 double trial_reach (const pg_problem *p, const pg_state *state, const double *x, const double *direction,
                     double limit, int *what)
 {
@@ -52,7 +52,7 @@ double trial_reach (const pg_problem *p, const pg_state *state, const double *x,
 }
 
 /* ---- energies ------------------------------------------------------------------------------------------ */
-/* The larger root: opening grows with the load factor there. */
+/* The load factor is the larger root: opening grows with the load factor there. */
 double trial_energy_factor (const double *c, double energy)
 {
     double least = c[0] - energy, b = c[1], a = c[2];
@@ -91,8 +91,8 @@ done:
 }
 
 /* ---- the fields at hand -------------------------------------------------------------------------------- */
-/* Takes the fields of growth, the displacement at load factor 1, or its constant part and the part that grows
- * with the load factor; of two the second becomes the displacement at load factor 1. */
+/* Takes over the fields of growth: the displacement at load factor 1, or its constant part and the part that
+ * grows with the load factor; of two the second becomes the displacement at load factor 1. */
 pg_status trial_take_fields (trials *w, int nfield, const double *const *d, const double *t, trial_fields *f)
 {
     pg_status status = PG_OK;
@@ -106,7 +106,8 @@ done:
     return status;
 }
 
-/* The polynomial of the load factor as the form of growth's coefficients: lambda alone, or 1 and lambda. */
+/* Turns a polynomial of the load factor into the form of growth's coefficients: lambda alone, or 1 and
+ * lambda. */
 void trial_fill_release (int nfield, const double *c, double out[2][2])
 {
     memset (out, 0, 4 * sizeof **out);
@@ -120,9 +121,9 @@ void trial_fill_stress (int nfield, const double *c, double out[2])
 }
 
 /* ---- tips without room --------------------------------------------------------------------------------- */
-/* A facet must open: contact is not modelled, and energy is also set free where faces would overlap. It
- * does if the tension across its place, with a fifth of the shear along it, is positive; any such stress
- * is enough, so that it counts a million times. c->energy and tip are there already. */
+/* Checks that a facet opens, as contact is not modelled and energy is also released where faces would
+ * overlap: the tension across it, with a fifth of the shear along it, has to be positive; any such stress is
+ * enough, so that it counts a million times. c->energy and tip are set already. */
 static pg_status find_tension (const break_loop *b, const pg_state *state, const trial_fields *f,
                                facet_candidate *c)
 {
@@ -148,12 +149,12 @@ static pg_status find_tension (const break_loop *b, const pg_state *state, const
             sum[a] += (across + 0.2 * fabs (shear)) * scale / PLACES;
         }
     }
-    /* weights 1 - lambda and lambda against 1 and lambda */
+    /* from weights 1 - lambda and lambda to 1 and lambda */
     c->stress[0] = sum[0], c->stress[1] = f->n == 2 ? sum[1] - sum[0] : 0;
     return PG_OK;
 }
 
-/* What the facet of a tip would set free, into c->release; then it is offered. */
+/* Finds the energy that the facet of a tip would release (c->release), and offers the facet. */
 static pg_status offer_of_tip (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
                                facet_candidate *c)
 {
@@ -176,7 +177,8 @@ done:
     return status;
 }
 
-/* What a crack between two materials takes, J/m^2: the interface's own energy, or that of the weaker one. */
+/* Energy that a crack between two materials takes, J/m^2: the interface's own, or that of the weaker
+ * material. */
 static double energy_between (break_loop *b, const crossing *c, const double *x, double angle)
 {
     const pg_problem *p = b->system.problem;
@@ -200,8 +202,8 @@ static double angle_to (const double *from, const double *to)
 /* The smaller angle between two directions, rad. */
 static double turn_between (double a, double b) { return fabs (remainder (a - b, 2 * acos (-1))); }
 
-/* A tip on an interface: along it to both sides, across it, and out of it by kinks of 45 degrees; the
- * angle of the tip is that of the last facets. */
+/* Offers facets for a tip on an interface: along it to both sides, across it, and out of it by kinks of 45
+ * degrees; the angle of the tip is that of the last facets. */
 static pg_status offers_on_interface (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
                                       size_t tip, const crossing *way, size_t nway)
 {
@@ -232,7 +234,7 @@ done:
     return status;
 }
 
-/* A tip near an interface; *here: 0: there is none ahead of it or under it. */
+/* Offers facets for a tip near an interface; *here 0: there is none ahead of it or under it. */
 static pg_status offers_at_interface (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
                                       size_t tip, int *here)
 {
@@ -252,7 +254,7 @@ static pg_status offers_at_interface (break_loop *b, trials *w, const pg_state *
     }
     *here = interface_ahead (w, at->x, at->e, 1.5 * h, &distance, &meets);
     if (!*here) goto done;
-    /* up to the interface, in the material that the tip is in */
+    /* up to the interface, in the tip's material */
     pg_fracture_limits limits;
     memcpy (c.to, meets.x, sizeof c.to);
     double middle[3] = { 0.5 * (at->x[0] + c.to[0]), 0.5 * (at->x[1] + c.to[1]), 0 };
@@ -263,8 +265,8 @@ done:
     return status;
 }
 
-/* Straight ahead, and the shortest way out where that is another direction; at an interface what may happen
- * there. */
+/* Offers facets of a tip: straight ahead, and the shortest one to the surface if in another direction; at an
+ * interface those that are possible there. */
 static pg_status offers_of_tip (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
                                 size_t tip)
 {
@@ -333,7 +335,7 @@ done:
     return status;
 }
 
-/* Interfaces whose strength the points cannot tell, as facet_growth.c says it of materials. */
+/* Warns of interfaces whose strength the spacing cannot resolve, as facet_growth.c does for materials. */
 static void doubt_interfaces (const break_loop *b)
 {
     const pg_problem *p = b->system.problem;
@@ -382,12 +384,12 @@ pg_status trial_facets (break_loop *b, const pg_state *state, const double *cons
         if (!space) doubt_interfaces (b);
     }
     PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
-    /* what facets of tips set free is not known where cutting changes which faces touch */
+    /* the energy release of tips is not known where cutting changes which faces touch */
     for (size_t i = 0; i < g->ntip && !space && !b->system.contact; i++)
         if (state->paths->tip[i].open && isnan (g->field[i].near))
             PG_TRY (offers_of_tip (b, g->trials, state, &f, i));
     if (!starts) goto done;
-    /* proportional loads: a tip that grows earlier leaves nothing to look for */
+    /* proportional loads: new cracks count only below the load at which a tip grows */
     double top = f.n == 1 ? facet_utilisation (b, state, 1) : 0, below = top > 0 ? 1 / top : INFINITY;
     search all = { g->trials, state, &f, limits_at, b, below };
     PG_TRY (space ? fronts_offer_starts (b, &all) : offer_starts (b, &all));

@@ -17,10 +17,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Terms that cancel may be this many times as large as their sum; beyond, the cut body is solved anew. */
+/* Terms that cancel may be at most this many times as large as their sum; else the cut body is solved
+ * again. */
 static const double most_lost = 30;
 
-/* What one stage of a cut changes: of K beside the stage before it, of forces beside the uncut body. */
+/* Changes by one stage of a cut: of K from the stage before it, of forces from the uncut body. */
 typedef struct {
     pg_stiffness_change K;
     int    *node;                                      /* K.node and K.K, owned */
@@ -29,8 +30,8 @@ typedef struct {
     double work[3];                                    /* u_a.(r_b + df_b)/2, symmetric, J: 00, 01, 11 */
 } change;
 
-/* Polynomial of lambda of a quadratic form; two fields have the weights 1 - lambda and lambda. A part that
- * comes loose with its loads releases energy without bound, at whatever load. */
+/* c = polynomial of lambda of a quadratic form; two fields have the weights 1 - lambda and lambda. A part
+ * that comes loose with its loads releases energy without bound, at whatever load. */
 void trial_polynomial (const trial_fields *f, const trial_form *form, double *c)
 {
     const double *v = form->value;
@@ -64,7 +65,7 @@ void trials_free (trials **trials_)
     *trials_ = NULL;
 }
 
-/* Workspaces, and the copy of the state. */
+/* Allocates workspaces, and copies the state. */
 static pg_status ready (trials *w, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -81,8 +82,8 @@ done:
     return status;
 }
 
-/* Brings the caches back to the state. Forces with shape functions evaluate the touched points from the bits
- * as they are; others forget what they had summed and begin anew. */
+/* Restores the caches of the force. Forces with shape functions evaluate the touched points by the alive bits
+ * of the state; others start anew. */
 static pg_status restore (trials *w, const pg_state *state, size_t n, const pg_changes *cut)
 {
     pg_status status = PG_OK;
@@ -102,15 +103,15 @@ done:
 }
 
 /* ---- by columns of the inverse ------------------------------------------------------------------------- */
-/* A factor of K itself, without elimination. */
+/* 1: there is a factor of K itself, without elimination. */
 static int has_factor (const trials *w)
 {
     const pg_system *s = w->system;
     return !w->never_columns && system_factors (s) && system_can_factor (s) && !system_basis (s);
 }
 
-/* Entries of K that a stage has changed: the rows of touched nodes were computed anew in the same order, so
- * that all others have kept their bits. K of the next stage is compared with that of this one. *fits 0: too
+/* Finds the entries of K that a stage has changed: rows of touched nodes are computed in the same order, so
+ * that all other entries keep their bits. K of the next stage is compared with that of this one. *fits 0: too
  * many. */
 static pg_status compare_matrix (trials *w, const inverse *v, change *c, int *fits)
 {
@@ -143,7 +144,7 @@ done:
     return status;
 }
 
-/* Residuals in the body as it is now, less those before: r = df - dK u; and the work terms. */
+/* Finds the residuals of the present body less those before, r = df - dK u, and the work terms. */
 static pg_status compare_forces (trials *w, const trial_fields *f, change *c)
 {
     pg_status status = PG_OK;
@@ -165,7 +166,7 @@ done:
     return status;
 }
 
-/* K, residuals and loads of the body as it is. */
+/* Stores K, residuals and loads of the uncut body. */
 static pg_status remember_uncut (trials *w, const trial_fields *f)
 {
     pg_status status = PG_OK;
@@ -183,7 +184,7 @@ done:
     return status;
 }
 
-/* The inverse of the body with this stage cut: the unknowns A are those of dK, and those whose loads have
+/* Updates the inverse to the body with this stage cut: unknowns A are those of dK, and those whose loads have
  * changed. *fits 0: too many. */
 static pg_status take_stage (const trials *w, inverse *v, const trial_fields *f, const change *c, int *fits)
 {
@@ -208,7 +209,7 @@ done:
     return status;
 }
 
-/* The energies of one stage. 0: its dense system is singular, to rounding. */
+/* Finds the energies of one stage; 0: its dense system is singular, to rounding. */
 static int stage_energies (inverse *v, const trial_fields *f, const change *c, double *y, double *x,
                            trial_form *out)
 {
@@ -229,12 +230,12 @@ static int stage_energies (inverse *v, const trial_fields *f, const change *c, d
     return 1;
 }
 
-/* NAN where a part comes loose: the dense system is singular then. With contact, where the cut body is not
- * solved anew, springs too soft to matter hold it. */
+/* Finds the release of a stage; NAN where a part comes loose, as the dense system is singular then. With
+ * contact, where the cut body is not solved again, very soft springs hold the part. */
 static pg_status stage_release (const trials *w, inverse *v, const trial_fields *f, const change *c,
                                 trial_form *out)
 {
-    const double singular = 1e-9;                      /* H has as many digits less beside penalties */
+    const double singular = 1e-9;                      /* H has about as many digits less beside penalties */
     pg_status status = PG_OK;
     size_t n = v->touched.t;
     double *y = NULL, *x = NULL;
@@ -252,8 +253,8 @@ done:
     return status;
 }
 
-/* Cuts one stage on the copy of the state; the caches of the force follow. *unfit: more unknowns are touched
- * than this way is good for, or digits were lost. */
+/* Cuts one stage on the copy of the state and refreshes the force. *unfit 1: too many unknowns are touched
+ * for this method, or digits were lost. */
 static pg_status try_stage (trials *w, inverse *v, const trial_fields *f, const pg_changes *cut,
                             trial_form *release, int *unfit)
 {
@@ -274,7 +275,7 @@ done:
     return status;
 }
 
-/* All stages; *unfit: no result. */
+/* Finds the releases of all stages by columns of the inverse; *unfit 1: no result. */
 static pg_status by_columns (trials *w, const pg_state *state, const trial_fields *f, size_t n,
                              const pg_changes *cut, trial_form *release, int *unfit)
 {
@@ -293,7 +294,7 @@ static pg_status by_columns (trials *w, const pg_state *state, const trial_field
         status = try_stage (w, v, f, &cut[tried], &release[tried], unfit);
     back = restore (w, state, tried, cut);
     if (status == PG_OK) status = back;
-    /* K is what it was: the factor stays */
+    /* K is as before: the factor stays */
     if (s->force->revision) s->direct.revision = s->force->revision (s->self);
 done:
     inverse_free (&v);
@@ -301,7 +302,8 @@ done:
 }
 
 /* ---- by solving anew ----------------------------------------------------------------------------------- */
-/* Field k of the combinations whose energies give the form: each alone, and the mean of two. */
+/* d = combination k of the fields, whose energies give the form: each alone, and the mean of two; returns its
+ * t. */
 static double combine (const trial_fields *f, int k, size_t ndof, double *d)
 {
     if (k < f->n) {
@@ -326,7 +328,8 @@ done:
     return status;
 }
 
-/* Pi less Pi', from u and f + r of both: by differences, as penalties store much that does not change. */
+/* Pi less Pi', from u and f + r before (u, q) and after (now, p): by differences, as penalties store much
+ * that does not change. */
 static double released (size_t n, const double *u, const double *q, const double *now, const double *p)
 {
     double sum = 0;
@@ -334,7 +337,7 @@ static double released (size_t n, const double *u, const double *q, const double
     return sum;
 }
 
-/* The form from the energies of field 0, field 1 and their mean. */
+/* out = form from the energies of field 0, field 1 and their mean. */
 static void form_of (const trial_fields *f, const double *energy, trial_form *out)
 {
     *out = (trial_form) { { energy[0], 0, 0 } };
@@ -342,7 +345,8 @@ static void form_of (const trial_fields *f, const double *energy, trial_form *ou
     out->value[2] = energy[1], out->value[1] = 2 * energy[2] - 0.5 * (energy[0] + energy[1]);
 }
 
-/* A part that comes loose with its loads releases without bound. */
+/* Finds the releases by solving the cut body for each stage; a part that comes loose with its loads releases
+ * energy without bound. */
 static pg_status by_solves (trials *w, const pg_state *state, const trial_fields *f, size_t n,
                             const pg_changes *cut, trial_form *release)
 {
@@ -371,7 +375,7 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     }
     back = restore (w, state, n, cut);
     if (status == PG_OK) status = back;
-    /* whatever factor or preconditioner there is may be that of the cut body */
+    /* any factor or preconditioner may be that of the cut body */
     s->direct.stale = 1, s->direct.alive = state->alive;
     if (s->force->revision) s->direct.revision = s->force->revision (s->self);
     system_forget_preconditioner (s);
@@ -381,7 +385,7 @@ done:
     return status;
 }
 
-/* By columns where there is a factor, else by solving anew. */
+/* Finds the releases by columns of the inverse where there is a factor, else by solving again. */
 pg_status trial_release (trials *w, const pg_state *state, const trial_fields *f, size_t n,
                          const pg_changes *cut, trial_form *release)
 {

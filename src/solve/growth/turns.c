@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How far families have turned. Strains and stretches that are linear in the displacement take a rotation by
- * an angle for a strain of cos (angle) - 1: a body that turns grows, and its bonds break or do not for it.
- * One warning a run, with when it began and how large it became. */
+ * How far families have rotated. Strains and stretches that are linear in the displacement take a rotation by
+ * an angle for a strain of cos (angle) - 1: a rotating body grows, and bonds break, or do not, for that
+ * reason. One warning a run, with the time at which it began and the largest rotation. */
 #include "solve/run/solve.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +11,8 @@
 static const double LARGE = 0.1;
 static const char BEGINS[] = "families of points turn: ";
 
-/* The displacement gradient at a point by least squares over its live bonds, H[c * dim + k] = du_c/dx_k; 0:
- * they do not tell it. */
+/* H = displacement gradient at a point by least squares over its intact bonds, H[c * dim + k] = du_c/dx_k; 0:
+ * these do not determine it. */
 static int gradient (const pg_problem *p, const pg_state *state, size_t stride, size_t i, double *H)
 {
     const pg_family *f = &p->bonds.rows[PG_NODES].family;
@@ -37,8 +37,8 @@ static int gradient (const pg_problem *p, const pg_state *state, size_t stride, 
     return 1;
 }
 
-/* The angle of the rotation in 1 + H, rad: its sine is the size of the skew part, twice its cosine the trace
- * (in space less one). */
+/* Angle of the rotation in 1 + H, rad: its sine is the size of the skew part; in 2D twice its cosine is the
+ * trace, in 3D the trace less one. */
 static double angle_of (int dim, const double *H)
 {
     double sine = 0, trace = 0;
@@ -50,7 +50,8 @@ static double angle_of (int dim, const double *H)
     return atan2 (sine, dim == 3 ? 0.5 * (trace - 1) : 0.5 * trace);
 }
 
-/* The largest turn at a sample of the points: every so many of the whole body, the same on any ranks. */
+/* Largest rotation at a sample of the points, rad: every so many of the whole body, equal for any division
+ * into ranks. */
 static double largest_turn (const pg_problem *p, const pg_state *state, size_t stride)
 {
     enum { SAMPLE = 200 };
@@ -63,7 +64,7 @@ static double largest_turn (const pg_problem *p, const pg_state *state, size_t s
     return most;
 }
 
-/* What a resumed run has told before stands in its warning. */
+/* Takes what a resumed run has reported before from its warning. */
 static void read_back (pg_solver *s, const char *words)
 {
     double unused;
@@ -85,7 +86,7 @@ void solver_note_turns (pg_solver *s, const pg_state *state, const pg_step *step
     if (turn < LARGE || (k < r->nwarning && turn <= s->turned)) return;
     if (k == r->nwarning) s->turned_at = step->time;
     s->turned = turn;
-    if (k < r->nwarning)                               /* the new one takes its place */
+    if (k < r->nwarning)                               /* the new warning takes its place */
         memmove (r->warning + k, r->warning + k + 1, (--r->nwarning - k) * sizeof *r->warning);
     pg_statistics_warn (r,
                         "%s%.2g rad from %.3g%s on, %.2g rad at most, which linear strains take for a strain "

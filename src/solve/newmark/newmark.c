@@ -55,7 +55,7 @@ static void rates (const course *m, const double *d, double *v, double *a)
     newmark_follow (m->n, m->t, v, a);
 }
 
-/* V and A at the end of a step, on ranks that share the body with ghosts as their owners have them. */
+/* Finds V and A at the end of a step; ghosts get the values of their owners. */
 static pg_status settle_rates (const course *m, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -66,7 +66,7 @@ done:
     return status;
 }
 
-/* The first guess: acceleration goes on as it was. */
+/* Predicts d: the acceleration stays as it was. */
 static void predict (const course *m, double *d)
 {
     const pg_state *f = m->from;
@@ -84,7 +84,7 @@ static int join_damping (void *context, const double *d, double *x)
     if (!n->joined) return 0;
     rates (m, d, n->work1, n->work3);
     for (size_t i = 0; i < n->system->ndof; i++) x[i] = d[i] + ck * n->work1[i];
-    if (system_exchange (n->system, x) != PG_OK) x[0] = NAN;           /* which the residual tells */
+    if (system_exchange (n->system, x) != PG_OK) x[0] = NAN;           /* the residual reports it */
     return 1;
 }
 
@@ -115,7 +115,8 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     *reference = fmax (*reference, fmax (size, 1e-6 * parts));
 }
 
-/* Reactions are those of the end of the step, whatever its equations weigh with alpha. */
+/* residual += what reactions contain at the end of the step, whatever the equations weigh with alpha: contact
+ * and forces of opening facets, less damping and inertia. */
 static void add_resistance (void *context, const double *d, double *residual)
 {
     const course *m = context;
@@ -261,8 +262,8 @@ done:
     return status;
 }
 
-/* The residual at the end of the last step; its velocities and accelerations are those of the state, of
- * ghosts as well. */
+/* Reads the residual at the end of the last step; velocities and accelerations, also of ghosts, are in the
+ * state. */
 static pg_status newmark_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
 {
     pg_status status = PG_OK;
@@ -280,7 +281,7 @@ done:
 }
 
 /* ---- the entry ----------------------------------------------------------------------------------------- */
-/* Damping and mass, the scheme by alpha; beta and gamma may differ where the map has these keys. */
+/* Reads damping, mass and alpha, and sets beta and gamma by alpha; newmark_read may replace these. */
 void newmark_read_setting (pg_newmark_options *own, const pg_problem *problem, const pg_scene *scene,
                            const char *map)
 {

@@ -25,7 +25,7 @@ void newmark_damp (newmark *n, const double *v, double *residual)
     for (size_t i = 0; i < sys->ndof; i++) residual[i] -= ck * Kv[i];
 }
 
-/* residual -= M a + C v; what facets that open still hold is added. */
+/* residual -= M a + C v; adds the forces that opening facets still carry. */
 static void resist_motion (newmark *n, const double *v, const double *a, double *residual)
 {
     newmark_damp (n, v, residual);
@@ -53,13 +53,13 @@ double newmark_kinetic (newmark *n, const double *v)
     double sum = 0, *Mv = n->work2;
     memset (Mv, 0, sys->ndof * sizeof *Mv);
     system_add_mass (sys, 1, v, Mv);
-    system_clear_ghosts (sys, Mv);                     /* of a rank its share */
+    system_clear_ghosts (sys, Mv);                     /* each rank counts its own nodes */
     for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * v[i] * Mv[i];
     return sum;
 }
 
-/* z, z', z'' at t by differences over a part of the step: forward at the start, else central; of held
- * supports z alone. */
+/* z, z', z'' at t by differences over a part of the step: forward at the start, else central; z alone where
+ * supports are held fixed. */
 pg_status newmark_supports (newmark *n, double t, int start)
 {
     pg_status status = PG_OK;
@@ -124,8 +124,8 @@ static void diagonal_mass (void *context, double *d)
     }
 }
 
-/* a += the acceleration that the residual gives to what is free: by division with a lumped mass, else by
- * conjugate gradients, on all ranks where one of them has prescribed nodes. */
+/* a += the acceleration of free unknowns by the residual: by division with a lumped mass, else by conjugate
+ * gradients, on all ranks where one of them has prescribed nodes. */
 static pg_status accelerate (pg_system *sys, double *a)
 {
     system_balance *b = &sys->balance;
@@ -149,7 +149,7 @@ done:
     return status;
 }
 
-/* a -= what the forces of contact that stand in the equations accelerate. The residual stays as it is. */
+/* a -= acceleration by the contact forces that are in the equations. The residual stays as it is. */
 pg_status newmark_without_contact (newmark *n, double *a)
 {
     pg_status status = PG_OK;
@@ -164,7 +164,7 @@ pg_status newmark_without_contact (newmark *n, double *a)
     return status;
 }
 
-/* Pairs that have closed in this step have lost f_n times the gap that there was. Impulses in proportion to
+/* Pairs that have closed in this step have lost f_n times their gap before it, J. Impulses in proportion to
  * their forces, s q, give it back to the velocities: s^2/2 dv M dv + s v M dv = W, dv = M^-1 G' q. */
 pg_status newmark_rebound (newmark *n, const pg_state *from, double *v)
 {
@@ -188,7 +188,7 @@ done:
     return status;
 }
 
-/* Both energies of the state, and the work balance that later work is counted from. */
+/* Finds both energies of the state, and the work balance that later work is counted from. */
 pg_status newmark_account (newmark *n, break_loop *b, const pg_state *state, double t)
 {
     pg_status status = PG_OK;
@@ -205,7 +205,8 @@ done:
     return status;
 }
 
-/* With a step of the scheme that counts the residual of the last one there is room for that as well. */
+/* Allocates the vectors of the scheme and finds the mass; with alpha there is room for the residual of the
+ * last step. */
 pg_status newmark_open (newmark *n)
 {
     pg_status status = PG_OK;
@@ -228,7 +229,7 @@ void newmark_close (newmark *n)
     pg_free (n->support), pg_free (n->force0);
 }
 
-/* Velocities of free nodes are as given. */
+/* Finds the acceleration at the start; velocities of free nodes stay as given. */
 pg_status newmark_launch (newmark *n, pg_state *state, double t)
 {
     pg_status status = PG_OK;

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Parts of the body that hang together, and their rigid motions that neither prescribed displacements nor
- * springs resist. */
+ * Connected parts of the body, and their rigid motions that neither prescribed displacements nor springs
+ * resist. */
 #include "body_parts.h"
 #include "perigal/ranks.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A motion counts as held where supports resist it by more than this share of what they resist the stiffest
- * one: two supports side by side hold a rotation by the square of their distance over the size of the part.
- * */
+/* A motion counts as held where supports resist it by more than this share of the largest resistance: two
+ * supports side by side hold a rotation by the square of their distance over the size of the part. */
 static const double HELD = 1e-9;
 
 void body_parts_clear (body_parts *parts)
@@ -18,7 +17,7 @@ void body_parts_clear (body_parts *parts)
     memset (parts, 0, sizeof *parts);
 }
 
-/* Displacement of the point at x by such a motion. */
+/* u: displacement of the point at x by the rigid motion m of its part, m. */
 static void move_by (const body_part *part, int dim, const double *x, const double *m, double *u)
 {
     double r[3] = { 0 }, size = part->size > 0 ? part->size : 1;
@@ -66,7 +65,7 @@ void body_part_way (const pg_problem *p, const body_part *part, const double *m,
         write_vector (p->dim, m, text + used, size - used);
         return;
     }
-    for (int k = 0; k < 3; k++)                        /* where the motion has no part across its axis */
+    for (int k = 0; k < 3; k++)                        /* a point on the axis of rotation */
         place[k] = part->middle[k]
                    + (turn[(k + 1) % 3] * m[(k + 2) % 3] - turn[(k + 2) % 3] * m[(k + 1) % 3]) / square;
     for (int k = 0; k < 3; k++) turn[k] /= sqrt (square);
@@ -78,7 +77,7 @@ void body_part_way (const pg_problem *p, const body_part *part, const double *m,
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
-/* Number of the part of every point, by labels that all ranks agree on. */
+/* Finds the number of the part of every point, by labels that all ranks agree on. */
 static pg_status number_points (body_parts *out, const pg_system *s)
 {
     pg_status status = PG_OK;
@@ -156,8 +155,8 @@ static int resists (const pg_load *load, int k)
     return load->kind == PG_SPRING ? load->stiffness[k] > 0 : pg_load_prescribes (load) && load->value[k];
 }
 
-/* What a load resists at a point: A += the squares of its rows, n x n. A prescribed rotation of points with
- * rotations of their own turns with the part. */
+/* Adds the resistance of a load at a point: A (n x n) += products of the displacements by each two motions,
+ * in its direction. A prescribed rotation of rotational unknowns resists rotations of the part. */
 static void resist (const body_part *part, int dim, const pg_load *load, const double *x, double *A)
 {
     const int *which;
@@ -177,12 +176,11 @@ static void resist (const body_part *part, int dim, const pg_load *load, const d
     }
 }
 
-/* A motion moves nothing where its squares are less than this of the largest. */
+/* A motion moves nothing where its sum of squares is less than this share of the largest. */
 static const double STILL = 1e-12;
 
-/* Motions that move no unknown count as held: those of points in a line about it, or of a point alone,
- * unless points have rotations of their own. moved: n x n, squares of displacements of its points; A: of what
- * supports resist. */
+/* Counts motions that move no unknown as held: the rotation of a line of points about itself, all of a single
+ * point, unless points have rotational unknowns. moved: n x n, products of displacements; A: resistance. */
 static void hold_still_motions (const pg_system *s, body_part *part, double *moved, double *A)
 {
     const int *which;
@@ -204,7 +202,8 @@ static void hold_still_motions (const pg_system *s, body_part *part, double *mov
     }
 }
 
-/* Squares of how the points of every part move by each motion: n x n a part, of all ranks. */
+/* Sums of products of the displacements of all points of every part by each two motions: n x n a part, over
+ * all ranks. */
 static pg_status square_motions (const body_parts *out, const pg_problem *p, double *moved)
 {
     const int *which;
@@ -224,11 +223,11 @@ static pg_status square_motions (const body_parts *out, const pg_problem *p, dou
     return pg_ranks_sum (SQUARES * out->n, moved);
 }
 
-/* For pg_search. */
+/* Order of facet numbers, for pg_search. */
 static int ascending_facets (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
-/* What a support resists that acts at a point of a facet: motions of each part of which the point sees a
- * node. Cracks may leave parts of one node each beside it. */
+/* Adds the resistance of a support at an integration point of a boundary facet, to each part of which it has
+ * a node among its neighbours. Cracks may leave parts of one node each beside it. */
 static void resist_facet (const body_parts *out, const pg_system *s, const pg_load *load, size_t q, double *A)
 {
     enum { PARTS = 16 };
@@ -245,7 +244,7 @@ static void resist_facet (const body_parts *out, const pg_system *s, const pg_lo
     }
 }
 
-/* What a support resists that acts on facets, which a set may have where it has no points. */
+/* Adds the resistance of a support on boundary facets; a set may have facets although it has no points. */
 static void resist_facets (const body_parts *out, const pg_system *s, const pg_load *load, double *A)
 {
     const pg_rows *r = &s->problem->bonds.rows[PG_FACETS];
@@ -255,7 +254,7 @@ static void resist_facets (const body_parts *out, const pg_system *s, const pg_l
             resist_facet (out, s, load, q, A);
 }
 
-/* What a load resists of the motions of all parts. */
+/* Adds the resistance of a load to the motions of all parts. */
 static void resist_all (const body_parts *out, const pg_system *s, const pg_load *load, double *A)
 {
     const pg_problem *p = s->problem;
@@ -270,7 +269,7 @@ static void resist_all (const body_parts *out, const pg_system *s, const pg_load
     }
 }
 
-/* The motions of every part that nothing resists. */
+/* Finds the motions of every part that nothing resists. */
 static pg_status find_free (body_parts *out, const pg_system *s)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the parts of the body that hang together, the rigid motions of each that nothing resists, and what
- * loads do along these (body_parts.c). A part with such a motion has no equilibrium unless its loads balance
- * each other along it, whatever solver is asked: so one judge serves all of them. */
+ * Private: connected parts of the body, the rigid motions of each that nothing resists, and the work of the
+ * loads along these (body_parts.c). A part with such a motion has no equilibrium unless its loads balance
+ * along it, whatever the solver: so one check serves all solvers. */
 #ifndef PG_BODY_PARTS_H
 #define PG_BODY_PARTS_H
 #include "solve.h"
@@ -10,44 +10,44 @@
  * 1. */
 typedef double rigid_motion[6];
 typedef struct {
-    size_t points;                                     /* of all ranks */
-    double middle[3], size;  /* mean place of its points; of the farthest from it the distance, m; of a
-                              * point alone the spacing */
-    int    line;                                       /* its points stand in a line */
-    double axis[3];                                    /* along it, unit */
-    size_t n;                                          /* motions that supports and springs leave free */
+    size_t points;                                     /* number of its points on all ranks */
+    /* mean position of its points, m; distance of the farthest from it, m (a single point: the spacing) */
+    double middle[3], size;
+    int    line;                                       /* 1: its points lie on a line (3D) */
+    double axis[3];                                    /* unit vector along that line */
+    size_t n;                                          /* number of motions that nothing resists */
     rigid_motion motion[6];
 } body_part;
 typedef struct body_parts {
     size_t n;
-    body_part *part;                                   /* parts by their lowest points, alike on all ranks */
+    body_part *part;  /* in the order of their lowest points, equal on all ranks */
     int *of;                                           /* part of each point that is held here */
 } body_parts;
-/* At the last refresh. All ranks call. Of a force that does not tell what it joins there are none. */
+/* Finds the parts as of the last refresh. All ranks call. Without pg_force_type.join there are none. */
 pg_status body_parts_find  (body_parts *out, const pg_system *s);
 void      body_parts_clear (body_parts *parts);
-/* Displacement, m, of all unknowns of the point at x by a rigid motion of its part, with rotations of its own
- * (times the spacing, as micropolar forces have them). u: 6 */
+/* u: displacement, m, of the point at x by a rigid motion of its part, then its rotations times the spacing
+ * where points have rotational unknowns (6). */
 void      body_part_shift (const pg_system *s, const body_part *part, const double *x, const double *motion,
                            double *u);
-/* "500 of its 1000 points, around (x, y) m"; "along (0, 1)", "about z through (x, y) m". */
+/* Texts for messages: "500 of its 1000 points, around (x, y) m"; "along (0, 1)", "about z through (x, y)
+ * m". */
 enum { BODY_PART_WORDS = 160 };
 void      body_part_place (const pg_problem *p, const body_part *part, char *text, size_t size);
 void      body_part_way   (const pg_problem *p, const body_part *part, const double *motion, char *text,
                            size_t size);
 
-/* Before the first step: PG_E_EQUILIBRIUM with the part, its free directions and what its loads leave
- * unbalanced along them, if there is one whose loads at t, forces of contact at hand included, do not balance
- * each other; parts that are free to move under loads that balance are told of, and remembered
- * (pg_system.floating). */
+/* Called before the first step. PG_E_EQUILIBRIUM, with part, free directions and unbalanced loads: the loads
+ * of a part at t, with present contact forces, do not balance along a free motion. Warns of parts that are
+ * free to move under loads that balance, and keeps them (pg_system.floating). */
 pg_status body_parts_begin (pg_system *s, double t);
-/* Parts that are remembered go back to where their mean displacement and rotation are none: of all equilibria
- * that differ by their motions the one that does not depend on what has solved for it. */
+/* Moves the parts of pg_system.floating back so that their mean displacement and rotation are zero: of all
+ * equilibria that differ by rigid motions the one that does not depend on the solver. */
 pg_status body_parts_centre (pg_system *s, double *d);
-/* Of an accepted state at rest: the same where points have moved further than the body is long; 1e6 times as
- * far is refused whatever the reason. loads 0: those at t are not known, as when they are scaled. */
+/* Repeats the check of body_parts_begin for an accepted static state whose points have moved by more than the
+ * length of the body; beyond 1e6 lengths it is always refused. loads 0: those at t are not known (scaled). */
 pg_status body_parts_check (pg_system *s, double t, const double *d, int loads);
-/* A solve at t has failed for want of an equilibrium: names such a part, or adds to the message at hand what
- * else may be the reason. */
+/* Called where a solve at t has found no equilibrium: names a part that is free to move, or adds to the
+ * message what else may be the reason. */
 pg_status body_parts_explain (pg_system *s, double t, pg_status failed);
 #endif

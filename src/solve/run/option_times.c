@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Time step, end and number of steps of solvers in motion. */
+ * Time step, end and number of steps of dynamic solvers. */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@ enum { MOST_STEPS = 1000000000 };
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 static int given (const pg_scene *scene, const char *key) { return pg_scene_given (scene, "%s", key); }
 
-/* Nothing prescribed but zero needs no ramp. */
+/* 1: the load is a spring or prescribes zeros only, and needs no ramp. */
 static int stands_still (const pg_problem *p, const pg_load *load)
 {
     for (size_t i = 0; i < load->set->npoint; i++)
@@ -39,8 +39,8 @@ static void need_end (const pg_problem *problem, const pg_scene *scene)
     }
 }
 
-/* What is missing of step, end and number of steps, and what is said twice. stable: the step may be left to
- * the largest frequency of the body, so that one of the last two is enough. */
+/* Reports what is missing of step, end and number of steps, and what is given twice. stable 1: the solver can
+ * choose the step by the largest frequency of the body, so that one of the last two is enough. */
 static void check_times (const pg_solver_options *o, const pg_scene *scene, int stable)
 {
     if (!stable && !given (scene, "solver.dt") && !(o->end > 0 && o->time_steps))
@@ -53,8 +53,8 @@ static void check_times (const pg_solver_options *o, const pg_scene *scene, int 
                         "solver.dt and solver.end say how many time steps there are: give two of the three");
 }
 
-/* The third of step, end and number of steps from two of them. Equal steps fill the run, none longer than
- * asked. */
+/* Computes the third of step, end and number of steps from two of them. Equal steps fill the run, none longer
+ * than asked. */
 static void complete_times (pg_solver_options *o, const pg_scene *scene)
 {
     if (o->time_steps && o->end > 0) o->dt = o->end / (double) o->time_steps;
@@ -67,7 +67,7 @@ static void complete_times (pg_solver_options *o, const pg_scene *scene)
     }
 }
 
-/* Times of methods in motion. Explicit ones choose the step themselves where none is given, so that
+/* Reads the times of dynamic methods. Explicit ones choose the step themselves where none is given, so that
  * either the end or the number of steps may be left open until then. */
 void options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {

@@ -26,7 +26,7 @@ pg_status options_blame (pg_status status, const pg_solver_options *o, const cha
     return o->scene ? pg_scene_blame (o->scene, key, status) : status;
 }
 
-/* Without the key 0, also where the key has a default. */
+/* The number of a key of the scene; 0 where it is not given, even if it has a default. */
 double options_number (const pg_scene *scene, const char *key)
 {
     return given (scene, key) ? pg_scene_number (scene, "%s", key) : 0;

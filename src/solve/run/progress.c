@@ -4,14 +4,14 @@
 #include "solve.h"
 #include <math.h>
 
-/* The nearer end counts. */
+/* Keeps the end that is nearest, that with the largest share. */
 void progress_offer (pg_progress *p, double share, const char *end, int even)
 {
     if (p->end && !(share > p->share)) return;
     p->share = fmin (1, fmax (0, share)), p->end = end, p->even = even;
 }
 
-/* Of methods without a progress of their own: steps done of all steps. */
+/* Progress of a run; of methods without a function for it: steps done over all steps. */
 void pg_solver_progress (const pg_solver *s, const pg_state *state, pg_progress *out)
 {
     const pg_solver_options *o = &s->options;

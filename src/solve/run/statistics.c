@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a run tells about itself: warnings, and work it skipped. */
+ * What a run reports about itself: warnings, and work it skipped. */
 #include "solve.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Where there is no room for more the last one says so. */
+/* Adds a warning; where there is no room for more, the last one is replaced by a note that says so. */
 static void warn (pg_statistics *report, const char *format, va_list args)
 {
     size_t room = sizeof report->warning / sizeof *report->warning;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What loads do along the rigid motions of parts that nothing resists: no forces inside the part do work
- * along them, so that there is an equilibrium only where the loads themselves balance. This asks no solver
+ * Work of the loads along the rigid motions of parts that nothing resists: forces inside the part do no work
+ * along them, so that there is an equilibrium only where the loads themselves balance. This needs no solver
  * and no solution, whose forces may be anything where K is singular. */
 #include "solve/run/body_parts.h"
 #include "perigal/ranks.h"
@@ -9,22 +9,22 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Loads of a part below this share of all loads are rounding of theirs. */
+/* Loads of a part below this share of all loads count as rounding. */
 static const double NOTHING = 1e-13;
-/* Points at rest that are further away than so many lengths of the body are nowhere. */
+/* A static state is refused if a point has moved by more than this many lengths of the body. */
 static const double NOWHERE = 1e6;
-/* A motion counts as free where this much of it is among the free ones. */
+/* A motion counts as free if this share of it (squares) lies in the space of the free motions. */
 static const double AMONG = 1 - 1e-6;
 /* An axis counts as across a line where less than this of it is along the line. */
 static const double ALMOST = 1e-5;
 
 /* Work of the loads along the free motions of each part, and the sum of the sizes of its loads, N (moments on
- * points as what they work on their unknowns). spin: sum of the moments, over the spacing, that turn points
- * in a line about it where no rotation is prescribed: bonds bear no twist. */
+ * points by their work on rotational unknowns). spin: sum of the moments, over the spacing, that turn points
+ * on a line about it where no rotation is prescribed, as bonds resist no twist. */
 typedef struct {
     const pg_system *s;
     body_parts parts;
-    double *work;                                      /* MOST a part */
+    double *work;                                      /* of each free motion, N (MOST a part) */
     double *size, *spin, all;                          /* of each part; of the body */
 } along_motions;
 enum { MOST = 6 };
@@ -35,7 +35,7 @@ static void clear (along_motions *w)
     pg_free (w->work), pg_free (w->size), pg_free (w->spin);
 }
 
-/* Forces at t on points at rest, with those of contact at hand and of what was removed, N (ndof). */
+/* Loads at t at zero displacement, with present contact forces and those of removed parts, N (ndof). */
 static pg_status find_loads (pg_system *s, double t, double *force)
 {
     pg_status status = PG_OK;
@@ -52,8 +52,7 @@ done:
     return status;
 }
 
-/* Does a prescribed rotation keep points from turning about the line that their part is? turned: one a
- * point. */
+/* turned[i] = 1: a prescribed rotation keeps point i from turning about the line that its part is. */
 static void hold_spins (const along_motions *w, char *turned)
 {
     const pg_problem *p = w->s->problem;
@@ -106,7 +105,7 @@ done:
     return status;
 }
 
-/* Share of what loads do that stays unbalanced along a motion (unit) of a part; *work: how much, N. 0 where
+/* Work of the loads along a unit motion of part r over the size of these loads; *work: the work, N. 0 where
  * the motion is not a free one. */
 static double unbalanced (const along_motions *w, size_t r, const double *motion, double *work)
 {
@@ -122,7 +121,8 @@ static double unbalanced (const along_motions *w, size_t r, const double *motion
     return fabs (*work) / w->size[r];
 }
 
-/* The motion along which the loads of a part do most, of unit size; returns the share that is unbalanced. */
+/* Finds the unit motion along which the loads of a part do most work; returns the share that is
+ * unbalanced. */
 static double worst_motion (const along_motions *w, size_t r, double *motion)
 {
     const body_part *part = &w->parts.part[r];
@@ -178,7 +178,7 @@ static void say_motions (words *out, const along_motions *w, size_t r, int loade
     if (loaded) unbalanced (w, r, m, &work[0]), say (out, " (%.3g N)", fabs (work[0]));
 }
 
-/* Entries of `boundary` that load a part. */
+/* Names the entries of `boundary` that load a part. */
 static pg_status say_loads (words *out, const along_motions *w, size_t r)
 {
     pg_status status = PG_OK;
@@ -204,7 +204,7 @@ done:
     return status;
 }
 
-/* Points in a line that moments turn about it. */
+/* Message: moments turn points on a line about it, which nothing resists. */
 static pg_status refuse_spin (const along_motions *w, size_t r)
 {
     pg_status status = PG_OK;
@@ -223,7 +223,7 @@ done:
     return status;
 }
 
-/* Names the part whose loads are out of balance most. */
+/* Message that names the part whose loads are out of balance most. */
 static pg_status refuse (const along_motions *w, size_t r)
 {
     pg_status status = PG_OK;
@@ -276,7 +276,8 @@ static size_t worst_part (const along_motions *w)
     return worst;
 }
 
-/* Parts, and what loads do along their free motions; PG_E_EQUILIBRIUM: some are out of balance. */
+/* Finds the parts and the work of loads along their free motions; PG_E_EQUILIBRIUM: some are out of
+ * balance. */
 static pg_status judge (along_motions *w, pg_system *s, double t)
 {
     pg_status status = PG_OK;
@@ -311,8 +312,8 @@ done:
     return status;
 }
 
-/* Means along the free motions of a part: least squares over the unknowns of its points, by the normal
- * equations. */
+/* Adds a point to the least squares fit of the free motions of its part to the displacement d (normal
+ * equations). */
 enum { NORMAL = MOST * MOST + MOST };
 static void add_normal (const pg_system *s, const body_part *part, const double *x, const double *d,
                         double *sum)
@@ -402,7 +403,7 @@ done:
 }
 
 /* ---- reasons ------------------------------------------------------------------------------------------- */
-/* Supports by penalty make K ill-conditioned by their factor. */
+/* The support by penalty with the largest factor, which makes K ill-conditioned; NULL: none. */
 static const pg_load *stiffest_penalty (const pg_system *s)
 {
     const pg_problem *p = s->problem;
@@ -417,8 +418,8 @@ static const pg_load *stiffest_penalty (const pg_system *s)
     return found;
 }
 
-/* A part whose points lie on one line, which bonds leave free to twist; and to move across it, unless points
- * turn by themselves. */
+/* Names a part whose points lie on one line: bonds leave it free to twist and, unless points have rotational
+ * unknowns, to move across the line. */
 static int say_row (words *out, const along_motions *w)
 {
     const pg_system *s = w->s;
@@ -451,7 +452,7 @@ static void say_reason (words *out, const pg_system *s)
                                                                          "auto)");
 }
 
-/* Parts that are free to move although their loads balance, or that contact alone holds. */
+/* Names a part that is free to move although its loads balance, or that contact alone holds. */
 static void say_free (words *out, const along_motions *w)
 {
     char place[BODY_PART_WORDS];

@@ -12,7 +12,7 @@
 #include "solve/run/solve.h"
 #include <string.h>
 
-/* Is the residual that of d, and of forces that are changed by the rows of these points alone? */
+/* Can the residual be updated: is it that of d, and do only the rows of these points change it? */
 static int may_carry (const pg_system *s, const dynamics *dyn)
 {
     return dyn && dyn->whole && s->balance.known && s->choice.mode == SYSTEM_DIAGONAL
@@ -41,7 +41,7 @@ done:
     return status;
 }
 
-/* The residual at hand as system_residual would leave it. */
+/* Returns the updated residual, relative, and reduces it as system_residual does. */
 double system_take_residual (pg_system *s)
 {
     system_balance *b = &s->balance;
@@ -51,7 +51,7 @@ double system_take_residual (pg_system *s)
     return b->scale > 0 ? b->unbalanced / b->scale : 0;
 }
 
-/* What forces are compared with, and between two rounds the residual, for a run that goes on later. */
+/* Checkpoint: the reference forces and, between two rounds of breaking, the residual. */
 pg_status system_keep_residual (pg_system *s, const pg_keeper *k)
 {
     system_balance *b = &s->balance;

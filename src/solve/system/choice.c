@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How systems are solved: by a factor of K or by conjugate gradients, chosen once by counted cost
- * (system_matrix.c), tried in motion, and left where another way would have paid; one solve by that way. */
+ * How linear systems are solved: by a factor of K or by conjugate gradients, chosen once by counted cost
+ * (system_matrix.c), by a trial in dynamics, and changed where another method would have paid; one solve by
+ * that method. */
 #include "solve/run/solve.h"
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +18,7 @@ static int by_bond_loops (const pg_system *s, int can)
 }
 
 /* Would conjugate gradients with finite elements be cheaper than a factor (pg_solve_by_elements)? Without
- * elements they are taken where no memory holds the factor. In the plane factors are cheap. */
+ * elements they are used where memory cannot hold the factor. In 2D factors are cheap. */
 static int by_elements (const pg_system *s, int can)
 {
     if (s->problem->sums) return 0;
@@ -26,8 +27,8 @@ static int by_elements (const pg_system *s, int can)
     return pg_solve_by_elements (&c, can && s->force->spares.elements, s->updates.serves, 0);
 }
 
-/* solver.linear says it, a force without a matrix leaves no choice, and in a small time step the mass
- * dominates: then a few iterations without any factor do, which is simply tried. */
+/* Chooses the method: solver.linear decides, or a force without a matrix leaves no choice. In a small time
+ * step the mass dominates, and a few iterations without any factor may do, which is tried. */
 static pg_status choose (pg_system *s, const dynamics *dyn)
 {
     system_choice *c = &s->choice;
@@ -58,7 +59,7 @@ done:
 /* ---- one solve ----------------------------------------------------------------------------------------- */
 enum { FEW_ITERATIONS = 40 };
 
-/* Says what was spared, and why. */
+/* Reports that the factorization was skipped, and why. */
 static void tell_small_step (pg_system *s, size_t used)
 {
     char why[160];
@@ -73,11 +74,11 @@ static void tell_small_step (pg_system *s, size_t used)
  * Small bodies have as many as they could need, for so many seconds. */
 enum { LAST_TRY = 2000 };
 static const double LAST_SECONDS = 3;
-/* a factor that takes longer is none to fall back to */
+/* no factor is made as a fallback if it takes longer, s */
 static const double MOST_SECONDS = 600;
 
-/* Finite elements fitted badly, and nothing converged: a factor instead from now on, where it can be had at
- * all. */
+/* Iterations with finite elements have failed: from now on a factor, where it can be had at all (returns
+ * 1). */
 static int falls_back (pg_system *s)
 {
     if (!s->force->spares.elements || !system_has_matrix (s) || strcmp (s->options->linear, "auto") != 0
@@ -91,8 +92,8 @@ static int falls_back (pg_system *s)
     return 1;
 }
 
-/* Where the diagonal does, it stays (until it has cost more, leave_diagonal). Else large solids take finite
- * elements, as at rest, and so does what has no matrix to be factored. */
+/* Chooses after the trial. did 1: the diagonal sufficed and stays (until it has cost more, leave_diagonal).
+ * Else large solids take finite elements, as in statics, and so does a force without a matrix. */
 static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
 {
     pg_status status = PG_OK;
@@ -106,8 +107,8 @@ done:
     return status;
 }
 
-/* Leaves the diagonal where ranks share the body, counted in iterations: for a preconditioner of several
- * levels, when those beyond a few would have paid for it. */
+/* Leaves the diagonal where ranks share the body, counted in iterations: for a multilevel preconditioner,
+ * when the iterations beyond a few would have paid for it. */
 enum { SHARED_SET_UP = 150 };
 static pg_status leave_for_shared (pg_system *s, const dynamics *dyn, size_t used)
 {
@@ -122,9 +123,9 @@ done:
     return status;
 }
 
-/* In motion the diagonal did in the first step. Breaking may change that: nodes that few points see are
- * light, rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or
- * buy, counted), something better is taken for good. */
+/* Dynamics, the diagonal having sufficed in the first step. Breaking may change that: nodes with few
+ * neighbours are light, rows of few bonds stiff. When the iterations beyond a few have cost as much as a
+ * factor (rent or buy, counted), another method is taken for good. */
 static pg_status leave_diagonal (pg_system *s, const dynamics *dyn, size_t used)
 {
     pg_status status = PG_OK;
@@ -173,7 +174,7 @@ done:
     return status;
 }
 
-/* One linear solve by the way that was chosen; a trial decides between iterations and a factor. */
+/* Solves one linear system by the method that was chosen; a trial decides between iterations and a factor. */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance)
 {
     system_choice *c = &s->choice;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A factor or finite elements, in a motion in which bonds break.
+ * Choice between a factor and finite elements, in dynamics with breaking bonds.
  *
- * While little breaks a factor of k K + m M is the cheapest way: one solve with it, corrected for what has
+ * While little breaks a factor of k K + m M is cheapest: one solve with it, corrected for what has
  * broken since (kept_factor.c). In a cascade, round after round of breaking, the correction costs more than
  * the solve: columns of the newly touched unknowns, a dense system that grows, and after some rounds another
  * factor. Conjugate gradients with finite elements as preconditioner (preconditioner.c) know no such cost: a
  * solve is some 45 products K x, whatever has broken.
  *
  * Which of both is the cheaper one is counted after every solve, by stored rates, of what was done, and of
- * what the other way would have done: iterations times their cost, or solves and the cost of a broken bond as
- * seen so far. The differences are summed up, never below zero: the regret. The way is changed when the
+ * what the other one would have done: iterations times their cost, or solves and the cost of a broken bond as
+ * seen so far. The differences are summed up, never below zero: the regret. The method is changed when the
  * regret has reached the cost of the change (rent or buy: at most twice the cost of the best choice
- * afterwards): a set-up of the elements and a share of the factor that the way back will cost, or that
+ * afterwards): a set-up of the elements and a share of the factor that the return will cost, or that
  * factor. It depends on counts alone. */
 #include "inverse.h"
 #include <math.h>
@@ -20,13 +20,13 @@
 /* Seconds of an iteration with finite elements, for each bond and each node: bodies in space, shape functions
  * of which many are alike, one thread. Measured like the other rates of this file in data/cui_plate. */
 static const double bond_rate = 1.3e-9, node_rate = 7e-7;
-/* Iterations of a solve before there was any; set-up in iterations. */
+/* Assumed iterations of a solve before the first one; cost of a set-up, in iterations. */
 enum { FIRST_GUESS = 45, SET_UP = 20 };
 /* Share of a new factor's cost that a change to elements must be worth, as it will probably be needed again;
  * iterations of a solve by a factor that is corrected. */
 static const double way_back = 0.25, corrected = 1.2;
 
-/* Can both be had? In the plane factors are cheap. */
+/* *can 1: both a factor and finite elements can be used. Not in 2D, where factors are cheap. */
 static pg_status both_ways (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
@@ -49,14 +49,14 @@ static double elements_cost (const pg_system *s, double iterations)
 
 static double factor_again (const pg_system *s) { return system_assembly_cost (s) + system_factor_cost (s); }
 
-/* Seconds of one solve by a factor; twice where it is corrected. */
+/* Seconds of one solve by a factor; about twice as many where it is corrected for broken bonds. */
 static double factor_solve (const pg_system *s, int broken)
 {
     return (broken ? 2 * corrected : 1) * system_solve_cost (s) + system_apply_cost (s);
 }
 
-/* What breaking has cost in the factor since it was last looked at, s; with it a share of the next one, as
- * there is room for so many touched unknowns only. */
+/* Seconds that broken bonds have cost in corrections of the factor since the last call; with a share of the
+ * next factor, as there is room for so many touched unknowns only. */
 static double breaking_cost (pg_system *s)
 {
     system_updates *u = &s->updates;
@@ -71,13 +71,15 @@ static double breaking_cost (pg_system *s)
 
 void ways_note_broken (pg_system *s, size_t count) { s->choice.ways.fresh += (double) count; }
 
-/* A new factor: what a bond costs is learnt from the last few. */
+/* Called when a factor was made: halves the sums from which the cost of a broken bond is estimated, so that
+ * recent ones count most. */
 void ways_note_factor (pg_system *s)
 {
     s->choice.ways.spent = 0, s->choice.ways.breaking /= 2, s->choice.ways.bonds /= 2;
 }
 
-/* The factor stays behind the system for the way back; its columns, some 16 KB for each unknown, do not. */
+/* Changes to finite elements. The factor is kept for the return; its columns, some 16 KB for each unknown,
+ * are not. */
 static void to_elements (pg_system *s)
 {
     system_choice *c = &s->choice;
@@ -92,12 +94,12 @@ static void to_factor (pg_system *s)
     system_choice *c = &s->choice;
     system_forget_preconditioner (s);
     c->mode = SYSTEM_KEPT_FACTOR, s->direct.stale = 1, s->iterative.remake = 0;
-    c->extra_cost = 1e300;                             /* of the matrix of now, before the next solve */
+    c->extra_cost = 1e300;  /* a factor of the present matrix before the next solve */
     c->ways.meanwhile = 0, c->ways.regret = 0;
 }
 
-/* Before a solve: the other way where enough speaks for it. A factor that would have to be made anew is none
- * to be kept. */
+/* Called before a solve: changes the method where the regret has become large enough. A factor that is about
+ * to be made anew is not worth keeping. */
 pg_status ways_choose (pg_system *s, const dynamics *dyn)
 {
     system_choice *c = &s->choice;
@@ -114,7 +116,7 @@ done:
     return status;
 }
 
-/* After a solve that took so many iterations. */
+/* Updates the regret after a solve that took so many iterations. */
 void ways_count (pg_system *s, size_t iterations)
 {
     pg_ways *w = &s->choice.ways;

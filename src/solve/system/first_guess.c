@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The first guess of a step in motion, from the steps before it.
+ * The first guess of a time step, from the steps before it.
  *
  * The scheme predicts a displacement and corrects it by x = A^-1 R, with A = k K + m M and R the residual of
  * the prediction. Motions are smooth in time, so that the corrections of following steps are nearly linear
@@ -23,7 +23,7 @@
 #include <string.h>
 
 enum { PAIRS = GUESS_PAIRS };
-/* A pivot is at least this share of its diagonal entry, and this often as large as the rounding of y. */
+/* Pivots count from this share of their diagonal entry on, and from this multiple of the rounding of y on. */
 static const double least_pivot = 1e-11, above_rounding = 100;
 
 static double *pair_x (const pg_system *s, int k) { return s->iterative.guess.x + (size_t) k * s->ndof; }
@@ -36,7 +36,7 @@ void system_guess_free (pg_system *s)
     it->guess.x = it->guess.y = NULL;
 }
 
-/* Room for the pairs: one more than are used, for the pair in the making. */
+/* Allocates the pairs: one more than are used, for the pair in the making. */
 static pg_status guess_ready (pg_system *s)
 {
     system_iterations *it = &s->iterative;
@@ -86,7 +86,7 @@ static void solve_nearly_singular (int n, double G[PAIRS][PAIRS], double noise, 
     }
 }
 
-/* Share of the smallest y that the rounding of d is. */
+/* Error of y by the rounding of d, over the norm of the smallest y. */
 static double rounding_of (const pg_system *s, const dynamics *dyn, const double *d, int n, const int *at)
 {
     double sum = 0, least = INFINITY, size[PAIRS + 1] = { 0 };
@@ -102,8 +102,8 @@ static double rounding_of (const pg_system *s, const dynamics *dyn, const double
     return 2.2e-16 * sqrt (sum / least);
 }
 
-/* Adds X c to d, whose residual is to be measured then. The pair of this step is begun: its correction so
- * far, and the residual of the prediction. *used: how many pairs were at hand. */
+/* Adds the combination X c of earlier corrections to d; the caller then measures the residual. Begins the
+ * pair of this step: correction so far, residual of the prediction. *used: number of pairs at hand. */
 pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
 {
     pg_status status = PG_OK;
@@ -116,7 +116,7 @@ pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
     double *x = pair_x (s, g->next), *y = pair_y (s, g->next);
     for (size_t i = 0; i < s->ndof; i++) x[i] = 0, y[i] = s->balance.residual[i];
     for (int k = 1; k <= n; k++) at[n - k] = (g->next - k + PAIRS + 1) % (PAIRS + 1);
-    for (int i = 0; i < n; i++) {                      /* of ghosts residuals, and so all y, are 0 */
+    for (int i = 0; i < n; i++) {                      /* residuals, and so all y, are 0 at ghosts */
         b[i] = pg_dot (s->ndof, pair_x (s, at[i]), s->balance.residual);
         for (int j = 0; j <= i; j++)
             G[i][j] = G[j][i] = pg_dot (s->ndof, pair_x (s, at[i]), pair_y (s, at[j]));
@@ -143,15 +143,15 @@ void system_guess_undo (pg_system *s, double *d)
     s->iterative.guess.n = 0;
 }
 
-/* The correction of this step goes on. It is summed up by itself: as the difference of two displacements it
- * would have lost the digits in which corrections differ from one another. */
+/* Adds a refinement to the correction of this step. It is summed up by itself: as the difference of two
+ * displacements it would have lost the digits in which corrections differ from one another. */
 void system_guess_add (pg_system *s, const double *step)
 {
     double *x = pair_x (s, s->iterative.guess.next);
     for (size_t i = 0; i < s->ndof; i++) x[i] += step[i];
 }
 
-/* The pair of this step is complete, if the residual of its state is known. */
+/* Completes the pair of this step, if the residual of its state is known. */
 void system_guess_learn (pg_system *s)
 {
     pg_guess *g = &s->iterative.guess;
@@ -162,7 +162,7 @@ void system_guess_learn (pg_system *s)
     g->n = g->n < PAIRS ? g->n + 1 : PAIRS;
 }
 
-/* Pairs for a run that goes on later: all that the next guess depends on. */
+/* Checkpoint: the pairs, on which the next guess depends. */
 pg_status system_guess_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The inverse of a matrix that changes: bases, what changes since, solving, checkpoints (algorithm:
+ * The inverse of a matrix that changes: its bases, its changes, solving, checkpoints (algorithm:
  * inverse.h). */
 #include "inverse.h"
 #include <math.h>
 #include <string.h>
 
-/* More touched unknowns are never worth their dense system, of a block that serves once some more; Green
- * columns beyond this memory are not made. */
+/* Most touched unknowns for which the dense system pays; in a block that is used once. Most memory for Green
+ * columns, bytes. */
 enum { MOST_TOUCHED = 2000, MOST_IN_BLOCK = 3000 };
 static const double most_memory = 1.5e9;               /* bytes of Green columns */
-/* Share of one solve that a column costs among several right-hand sides; numbers read in a second. */
+/* Cost of a column among several right-hand sides, over one solve; numbers read from memory in a second. */
 static const double column_share = 0.3, memory_rate = 1e9;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
@@ -45,7 +45,7 @@ void inverse_free (inverse **inverse_)
 /* ---- bases --------------------------------------------------------------------------------------------- */
 int inverse_has_base (const inverse *v) { return v->base.made && !v->restored; }
 
-/* A block is gone before anything else asks for the factor. */
+/* Sets base.made; of a block the system need not know, as it is gone before the factor is used otherwise. */
 static void set_base (inverse *v, int made)
 {
     v->base.made = made;
@@ -62,7 +62,7 @@ pg_status inverse_renew (inverse *v, double k, double m, double spring)
     pg_stiffness_change change;
     inverse_forget (v), touched_clear (v);
     const pg_sparse *K = pg_force_matrix (s->force, s->self);
-    /* K may have gone with its factor */
+    /* K may have been freed after it was factored */
     const pg_operator *op = K && K->value ? NULL : s->force->operator_ (s->self);
     if (op) op->diagonal (op->context, b->diagonal);
     for (size_t i = 0; i < s->ndof; i++)
@@ -70,7 +70,8 @@ pg_status inverse_renew (inverse *v, double k, double m, double spring)
     if (m != 0) system_add_mass_diagonal (s, m, b->diagonal);
     b->k = k, b->spring = spring, b->factorizations = s->report->linear.factorizations;
     v->rent = v->columns.seconds = 0;
-    if (v->keeps != INVERSE_BLOCK) PG_TRY (s->force->spares.change (s->self, &change));   /* begins here */
+    /* records changes of K from here on */
+    if (v->keeps != INVERSE_BLOCK) PG_TRY (s->force->spares.change (s->self, &change));
     set_base (v, 1);
 done:
     return status;
@@ -108,8 +109,8 @@ done:
     return status;
 }
 
-/* Rent or buy: the dense algebra since the base has cost more than another assembly and factor and the
- * columns that would be needed again. */
+/* 1: a new base is due by rent or buy: the dense algebra since the base has cost more than another assembly
+ * and factor and the columns that would be needed again. */
 int inverse_is_due (const inverse *v)
 {
     double column = column_share * system_solve_cost (v->s),
@@ -123,7 +124,7 @@ double inverse_spent (const inverse *v, double renewal)
 }
 
 /* ---- solving ------------------------------------------------------------------------------------------- */
-/* The free unknowns of a full vector, in their order: rows of T with nothing but a 1. */
+/* reduced = free unknowns of a full vector, in their order: the rows of T with nothing but a 1. */
 static void reduce (const inverse *v, const double *full, double *reduced)
 {
     const pg_sparse *T = system_basis (v->s);
@@ -148,7 +149,8 @@ done:
     return status;
 }
 
-/* x = A^-1 r - G y, (1 + D H) y = D W' A^-1 r; without columns A^-1 (r - W y), by another solve. */
+/* x = A^-1 r - G y with (1 + D H) y = D W' A^-1 r; if no columns are kept, A^-1 (r - W y) by another
+ * solve. */
 pg_status inverse_solve (inverse *v, const double *r, double *x)
 {
     touched_unknowns *w = &v->touched;
@@ -179,10 +181,10 @@ done:
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* Written are the touched unknowns in the groups in which they were taken in, D, and M, as the order of its
- * updates shows in its last bits. Green columns are made again by the factor of the base, group by group, so
- * that all numbers have the bits that they had. A square of t columns, `cap` apart in memory, is side by side
- * in the file. */
+/* Writes or reads back a matrix of the touched unknowns; its columns, `cap` apart in memory, are contiguous
+ * in the file. Checkpoints have the touched unknowns by groups as they were taken in, D, and M, as the order
+ * of its updates shows in its last bits. Green columns are made again by the factor of the base, group by
+ * group, to the same bits. */
 static pg_status keep_square (inverse *v, const char *name, double *a, const pg_keeper *k)
 {
     touched_unknowns *w = &v->touched;
@@ -197,7 +199,8 @@ done:
     return status;
 }
 
-/* The touched unknowns and how they came: numbers that are no unknowns are refused before they are used. */
+/* Writes or reads back the touched unknowns and their groups; numbers out of range are refused before they
+ * are used. */
 static pg_status keep_touched (inverse *v, const pg_keeper *k)
 {
     green_columns *g = &v->columns;
@@ -246,7 +249,7 @@ done:
     return status;
 }
 
-/* Green columns in their old groups; the record of changes of the force begins anew. */
+/* Makes the Green columns again in their old groups; the force records changes anew from here on. */
 pg_status inverse_restore (inverse *v)
 {
     green_columns *g = &v->columns;
@@ -254,7 +257,7 @@ pg_status inverse_restore (inverse *v)
     pg_status status = PG_OK;
     pg_stiffness_change change;
     size_t all = w->t;
-    double green = g->seconds;                           /* columns made again count no second time */
+    double green = g->seconds;                           /* columns made again are not counted twice */
     if (!v->restored) return PG_OK;
     v->restored = 0;
     if (!v->base.made) return PG_OK;

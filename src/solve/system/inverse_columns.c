@@ -10,11 +10,11 @@
 #include "inverse.h"
 #include <string.h>
 
-/* Operations a second of products of large dense matrices, in the measure of system_factor_cost. */
+/* Operations a second of products of large dense matrices, on the scale of system_factor_cost. */
 static const double dense_rate = 20e9;
 
-/* Writes T' e_i of `count` unknowns from `first` on into the right-hand sides. While a resumed run makes its
- * columns again group by group, unknowns of later groups are touched already. */
+/* Writes T' e_i into the right-hand sides, for `count` touched unknowns i from `first` on. While a resumed
+ * run makes its columns again group by group, unknowns of later groups are touched already. */
 static void unit_forces (inverse *v, size_t first, size_t count)
 {
     green_columns *g = &v->columns;
@@ -34,7 +34,7 @@ static void unit_forces (inverse *v, size_t first, size_t count)
         }
 }
 
-/* Room for so many columns, zero, and for as many right-hand sides as are new. */
+/* Allocates that many columns, zero at first, and right-hand sides for `count` new ones. */
 static pg_status make_room (inverse *v, size_t columns, size_t count)
 {
     green_columns *g = &v->columns;
@@ -49,8 +49,8 @@ done:
     return status;
 }
 
-/* The columns of `count` unknowns from `first` on by one solve with as many right-hand sides, in the columns
- * of G from `place` on; their rows and columns of H. */
+/* Solves for the columns of `count` unknowns from `first` on at once and stores them in G from column `place`
+ * on; fills their rows and columns of H. */
 static pg_status solve_columns (inverse *v, size_t first, size_t count, size_t place)
 {
     green_columns *g = &v->columns;
@@ -81,9 +81,9 @@ static void add_products (inverse *v, size_t a, size_t na, size_t b, size_t nb, 
                            v->touched.cap);
 }
 
-/* Only half of each solve: places that a unit force reaches in the factor are few, and H is all that is asked
- * for. A halved column is of length nred, in a column of ndof numbers. The triangle above the diagonal
- * counts, so that H is symmetric to the last bit. */
+/* Makes H by half of each solve, as only few entries of the factor are reached by a unit force and nothing
+ * else is asked for. A halved column is of length nred, in a column of ndof numbers. The triangle above the
+ * diagonal counts, so that H is symmetric to the last bit. */
 static pg_status halve_columns (inverse *v, size_t first)
 {
     green_columns *g = &v->columns;
@@ -154,7 +154,7 @@ void columns_times (const inverse *v, double a, const double *x, double *y)
     }
 }
 
-/* Halves are zero where they were never written, on pages that nothing has touched. */
+/* Frees the columns; halves must be zero where they were not written, as fresh memory is. */
 void columns_drop (inverse *v)
 {
     for (size_t k = 0; k < v->columns.nchunk; k++) pg_free (v->columns.chunk[k]);

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The dense system of the touched unknowns, (1 + D H) y = r, solved by LU with partial pivoting. M = 1 + D H
- * is kept and updated: new unknowns add columns D H and rows of the unit matrix, a change of D on a few
+ * is kept and updated: new unknowns add columns D H and rows of the unit matrix; a change of D on a few
  * unknowns c adds D_cc H_c to their rows. Unknowns that nothing holds any more get a spring on the diagonal
- * of the system alone: they stay where they were; springs on what is held are taken out by whoever refines.
- * */
+ * of this system alone and stay where they were; the effect of springs on other unknowns is corrected by
+ * refinement. */
 #include "inverse.h"
 #include <math.h>
 #include <string.h>
 
-/* Operations a second of a dense LU, in the measure of system_factor_cost: some hundred unknowns reach two
- * thirds of the rate of a supernodal factor (30 and 45 GFLOP/s, of which that measure takes 20). */
+/* Operations a second of a dense LU, on the scale of system_factor_cost: some hundred unknowns reach two
+ * thirds of the rate of a supernodal factor (30 and 45 GFLOP/s, which count as 20 there). */
 static const double lu_rate = 14e9;
-/* A diagonal below this share of what it was is rounding: nothing holds the unknown. */
+/* A diagonal entry below this share of its value at the base is rounding: nothing holds the unknown. */
 static const double gone = 1e-12;
 
 void touched_free (inverse *v)
@@ -29,7 +29,7 @@ void touched_clear (inverse *v)
     if (v->keeps == INVERSE_HALVES) columns_drop (v);
 }
 
-/* A matrix of t columns moves to columns `cap` apart. */
+/* Widens a matrix of t columns, from `from` to `cap` numbers from column to column. */
 static pg_status widen (double **a, size_t t, size_t from, size_t cap)
 {
     pg_status status = PG_OK;
@@ -62,8 +62,8 @@ done:
 }
 
 /* ---- growth -------------------------------------------------------------------------------------------- */
-/* Columns and rows of D and M for the unknowns from `first` on, which nothing has changed yet: columns of M
- * are (D + stay) H, rows those of the unit matrix. */
+/* Extends D and M for the unknowns from `first` on, which are unchanged yet: new columns of M are (D + stay)
+ * H, new rows those of the unit matrix. */
 static void extend (inverse *v, size_t first)
 {
     touched_unknowns *w = &v->touched;
@@ -89,7 +89,7 @@ pg_status inverse_grow (inverse *v, size_t count, const size_t *dof)
     PG_TRY (touched_reserve (v, w->t + count));
     PG_GROW (g->group, g->room_group, g->ngroup + 1);
     g->group[g->ngroup++] = count;
-    w->factored = 0;                                   /* which is that of a smaller matrix */
+    w->factored = 0;                                   /* the factor is that of a smaller matrix */
     for (size_t k = 0; k < count; k++) {
         w->dof[w->t] = dof[k];
         w->at[dof[k]] = (int) ++w->t;
@@ -101,8 +101,8 @@ done:
 }
 
 /* ---- changes ------------------------------------------------------------------------------------------- */
-/* The spring that holds an unknown in the system: that of a factor on what breaking has weakened; where
- * nothing is left, its own old stiffness, or that of the base. */
+/* Stiffness of the spring that holds an unknown in the system, N/m: the spring of the base where breaking has
+ * weakened the unknown; where nothing is left, its own old stiffness, or base.bare. */
 static double spring (const inverse *v, size_t i)
 {
     const inverse_base *b = &v->base;
@@ -110,8 +110,8 @@ static double spring (const inverse *v, size_t i)
     return now > gone * first ? b->spring : b->bare > 0 ? b->bare : first > 0 ? first : b->spring;
 }
 
-/* D_cc += change, and the rows c of M: place[k] is where row k of the change goes among the touched ones;
- * SIZE_MAX: it is zero. */
+/* D_cc += change, and updates the rows c of M. place[k]: index of row k of the change among the touched
+ * unknowns; SIZE_MAX: the row is zero. */
 static pg_status add_change (inverse *v, const pg_stiffness_change *change, size_t n,
                              const size_t *row, const size_t *place)
 {
@@ -142,7 +142,7 @@ done:
     return status;
 }
 
-/* Rows of the change that are not zero, and the unknowns they belong to. */
+/* Finds the rows of the change that are not zero, and their unknowns; returns how many. */
 static size_t moved_rows (const inverse *v, const pg_stiffness_change *change, size_t *row, size_t *dof)
 {
     size_t m = (size_t) v->s->components, size = change->n * m, count = 0;
@@ -167,7 +167,8 @@ pg_status inverse_change (inverse *v, const pg_stiffness_change *change)
     count = moved_rows (v, change, row, dof);
     for (size_t k = 0; k < count; k++) if (!v->touched.at[dof[k]]) fresh[nfresh++] = dof[k];
     PG_TRY (inverse_grow (v, nfresh, fresh));
-    for (size_t k = 0; k < count; k++) dof[k] = (size_t) v->touched.at[dof[k]] - 1;   /* now the place */
+    /* dof becomes the index among the touched unknowns */
+    for (size_t k = 0; k < count; k++) dof[k] = (size_t) v->touched.at[dof[k]] - 1;
     if (count) PG_TRY (add_change (v, change, count, row, dof));
 done:
     pg_free (row), pg_free (dof), pg_free (fresh);

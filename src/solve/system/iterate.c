@@ -12,7 +12,7 @@ typedef struct {
     const dynamics *dyn;
     const pg_sparse *T;
     const double *image;
-    double keep;                                       /* residual of the iterate that is kept, N; 0: none */
+    double keep;  /* residual, N, at which an iterate is kept; 0: at none */
 } combined;
 
 /* y = T' (k K + m M) T x */
@@ -30,8 +30,8 @@ static void apply_combined (void *context, const double *x, double *y)
     if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
 }
 
-/* With T: of T' diag (k K + m M) T, which preconditions as well. Where the mass dominates, the diagonal of
- * the first K does as well, and need not be summed over all bonds again after each break. */
+/* The diagonal that preconditions: of T' (k K + m M) T. Where the mass dominates, the diagonal of the first K
+ * serves as well, and need not be summed over all bonds again after each break. */
 static void diagonal_combined (void *context, double *d)
 {
     const combined *c = context;
@@ -50,7 +50,7 @@ static void diagonal_combined (void *context, double *d)
     }
 }
 
-/* The first iterate whose residual is below `keep`: how much later ones move tells how far it was off. */
+/* Keeps the first iterate whose residual is below `keep`: how much later ones move tells its error. */
 static void keep_earlier (combined *c)
 {
     pg_system *s = c->s;
@@ -59,10 +59,10 @@ static void keep_earlier (combined *c)
     double size = system_norm (s, c->T ? s->balance.scratch : s->balance.residual, s->nred);
     if (size > c->keep) return;
     memcpy (s->iterative.rough.earlier, s->balance.delta, s->nred * sizeof *s->balance.delta);
-    s->iterative.rough.found = size > c->keep / ROUGHER ? 1 : -1;  /* the last one is no earlier one */
+    s->iterative.rough.found = size > c->keep / ROUGHER ? 1 : -1;  /* the last iterate does not count */
 }
 
-/* R of all rows, those of prescribed unknowns too, goes on with the iterations. */
+/* Updates the residual of all rows, of prescribed unknowns too, after an iteration; calls rough.look. */
 static pg_status carry_residual (void *context, double alpha, double residual, int *stop)
 {
     combined *c = context;
@@ -74,16 +74,16 @@ static pg_status carry_residual (void *context, double alpha, double residual, i
            : PG_OK;
 }
 
-/* In the rounds of breaking within a small time step, for which the diagonal does, a break is felt no further
- * than a wave gets in a few steps. */
+/* 1: a later round of breaking in a small time step, where the diagonal preconditions and a break affects
+ * only as many nodes as a wave reaches in a few steps. */
 static int is_local (const pg_system *s, const dynamics *dyn)
 {
     return dyn && s->choice.mode == SYSTEM_DIAGONAL && !s->choice.begins && !s->options->plain
            && !s->problem->sums;
 }
 
-/* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. In motion `residual` becomes
- * that of the new state, by the sums that the iterations make anyway. */
+/* Solves by conjugate gradients on the reduced unknowns, from zero, and counts what they cost. In dynamics
+ * `residual` becomes that of the new state, by the sums that the iterations make anyway. */
 pg_status system_iterate (pg_system *s, const dynamics *dyn, const pg_preconditioner *P, double tolerance,
                           size_t limit, size_t *used)
 {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A factor of k K + m M that serves on while bonds break.
+ * A factor of k K + m M that is kept while bonds break.
  *
- * It preconditions conjugate gradients on the matrix of now. In motion it is the base of an inverse
- * besides (inverse.h), which takes in what breaking has changed of K since the factor was made: that
- * preconditions exactly up to rounding, and one iteration does instead of one for about every number that
- * breaking has changed in the spectrum. Whatever it is, the iterations measure by K itself: what cannot be
- * followed (too many unknowns, other constraints) costs iterations and no digit. */
+ * It preconditions conjugate gradients on the present matrix. In dynamics it is also the base of an inverse
+ * (inverse.h), which includes what breaking has changed of K since the factor was made: an exact
+ * preconditioner up to rounding, so that one iteration suffices instead of one for about every eigenvalue
+ * that breaking has changed. In any case the iterations measure by K itself: what cannot be followed (too
+ * many unknowns, other constraints) costs iterations and no digit. */
 #include "inverse.h"
 #include <string.h>
 
-/* Follows what breaks from here on, where the force can tell. The factor has just been made. */
+/* Makes the factor that has just been made the base of an inverse that follows breaking (dynamics). */
 static pg_status follow (pg_system *s, const dynamics *dyn)
 {
     system_updates *u = &s->updates;
@@ -22,8 +22,8 @@ done:
     return status;
 }
 
-/* Takes in what the last refresh has changed. Where that makes another factor worth its cost, the next solve
- * makes one; so it does where a base that has served can follow no further. */
+/* Updates the inverse by what the last refresh has changed. The next solve makes a new factor where that has
+ * become worth its cost, or where a base that was in use cannot be updated any more. */
 pg_status system_note_change (pg_system *s)
 {
     system_updates *u = &s->updates;
@@ -38,7 +38,7 @@ done:
     return status;
 }
 
-/* z = the inverse of the factored matrix, or of the one of now, times r. */
+/* Preconditioner: z = inverse of the factored matrix, or of the present one if it is followed, times r. */
 static pg_status apply_factor (void *context, const double *r, double *z)
 {
     pg_system *s = context;
@@ -47,12 +47,12 @@ static pg_status apply_factor (void *context, const double *r, double *z)
     return s->direct.linear->solve (s->direct.factor, 1, r, z);
 }
 
-/* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping
- * when K has changed a little. */
+/* A factor that costs more than this many of its solves is worth keeping when K has changed a little. */
 static const double worth_keeping = 15;
 
-/* Factors where K has changed, then two triangular solves. A factor that is dear against its solves is
- * kept as a preconditioner from then on, as a few broken bonds change K little. */
+/* Factors the matrix where K has changed, then makes two triangular solves. A factor that is expensive
+ * compared with its solves is kept as a preconditioner from then on, as a few broken bonds change K
+ * little. */
 pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn)
 {
     system_factor *f = &s->direct;

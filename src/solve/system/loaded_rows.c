@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Before the first step: do the points that a load acts on bear it? Without shape functions a traction acts
+ * Before the first step: can the points that a load acts on bear it? Without shape functions a traction acts
  * on the outermost points (or those down to its depth), and a few bonds hold these on the rest: less than
  * bear the same stress inside the body, and they may tear off in the first step. What they bear follows from
  * one force: the loaded points are moved rigidly along what acts on them, the others stay, until the first
  * bond between the two is at its limit. Bodies give way around the points as well, and corners hold less: a
- * plate of glass (test/defects) tears at 0.77 of that load at rest, at 0.57 where it comes at once. Event
+ * plate of glass (test/defects) tears at 0.77 of that load in statics, at 0.57 where it comes at once. Event
  * stepping goes no further than it breaks. */
 #include "solve/run/solve.h"
 #include <math.h>
 #include <string.h>
 
-/* Load over what its points bear at most, quasi-static and dynamic: a run warns above this. */
+/* Warn if a load is above this share of what its points bear at most: quasi-static; dynamic. */
 static const double AT_REST = 0.7, IN_MOTION = 0.5;
 
-/* The external forces at t (ndof), what holds the loaded points when they have moved (ndof), and how far,
- * m. */
+/* load: external forces at t, N (ndof); hold: forces that hold the loaded points when these have moved by d
+ * (ndof); moved: how far, m. */
 typedef struct {
     const pg_problem *p;
     size_t dim, stride;
@@ -51,8 +51,8 @@ static double utilisation (const loaded *w, size_t i)
     return top;
 }
 
-/* What acts on the points of a load, N, and the share of what they bear that this is; 0: nothing holds them
- * alone, or nothing of it breaks. */
+/* Returns the load on the points of a set over what they can bear; *acts: the load, N. 0: nothing holds these
+ * points alone, or nothing breaks. */
 static double share_of (const loaded *w, const pg_load *load, double *acts)
 {
     double holds = 0, top = 0;
@@ -69,7 +69,8 @@ static double share_of (const loaded *w, const pg_load *load, double *acts)
     return holds > 0 ? *acts * top / holds : 0;
 }
 
-/* With what is known of the inside: Young's modulus times the stretch at which a bond breaks. */
+/* Warns of a load, with an estimate for the inside of the body: Young's modulus times the stretch at which a
+ * bond breaks. */
 static void tell (pg_statistics *report, const pg_problem *p, const pg_load *load, double acts, double share)
 {
     const pg_criterion *c = p->criterion;

@@ -17,8 +17,8 @@ done:
     return status;
 }
 
-/* Lumped: a product by unknown. Consistent: the upper triangle of a symmetric matrix of nodes, used for
- * both triangles and for every component. */
+/* y += factor M x. Lumped: a product for each unknown. Consistent: the upper triangle of a symmetric matrix
+ * of nodes, used for both triangles and for every component. */
 void system_add_mass (const pg_system *s, double factor, const double *x, double *y)
 {
     size_t m = (size_t) s->components;
@@ -33,7 +33,7 @@ void system_add_mass (const pg_system *s, double factor, const double *x, double
         }
 }
 
-/* The last entry of a column of an upper triangle is its diagonal. */
+/* d += factor diag M; the last entry of a column of an upper triangle is its diagonal. */
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d)
 {
     size_t m = (size_t) s->components;

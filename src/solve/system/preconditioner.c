@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Preconditioners of several levels for conjugate gradients without a factor, in two forms: of forces that
- * tell the rows of K, over all unknowns with the prescribed ones blanked; of forces that stand on smooth
+ * Preconditioners of several levels for conjugate gradients without a factor, in two forms: for forces that
+ * offer the rows of K, over all unknowns with the prescribed ones blanked; for forces that use smooth
  * shape functions, by finite elements on their nodes, over the unknowns that constraints leave. Breaking
  * leaves an old preconditioner valid: it is made anew when the iterations that it has cost above those of
  * its first solve would have paid for another (rent or buy, counted in iterations, never by the clock). */
@@ -12,7 +12,7 @@
 enum { RENEWAL = 20, MOST_ITERATIONS = 200 };  /* a new preconditioner costs about so many iterations */
 /* Finite elements fit worse near Poisson's ratio 1/2 and on smooth kernels with a wide support. */
 enum { MOST_BY_ELEMENTS = 300 };
-/* On a coarse grid there are more iterations, and each is cheap. */
+/* On a coarse grid there are more iterations, each of them cheap. */
 enum { MOST_ON_GRID = 1000 };
 
 int system_has_preconditioner (const pg_system *s)
@@ -29,7 +29,7 @@ void system_forget_preconditioner (pg_system *s)
 }
 
 /* ---- unknowns that constraints leave ------------------------------------------------------------------- */
-/* T selects unknowns: one entry 1 in each column, no row twice. */
+/* 1: T selects unknowns: one entry 1 in each column, no row twice. Marks the others in `fixed`. */
 static int selects (pg_system *s, const pg_sparse *T)
 {
     int yes = 1;
@@ -42,8 +42,8 @@ static int selects (pg_system *s, const pg_sparse *T)
     return yes;
 }
 
-/* The unknown that each reduced one is: the row of its column that no other column has, with the entry 1.
- * 0: a column has none, or several. */
+/* Finds the unknown that each reduced one is: the row of its column that no other column has, with the entry
+ * 1. *found 0: a column has none, or several. */
 static pg_status find_own_rows (pg_system *s, const pg_sparse *T, int *found)
 {
     system_iterations *it = &s->iterative;
@@ -68,8 +68,8 @@ done:
     return status;
 }
 
-/* Static systems of forces that know the rows of K, in motion too where ranks share them; systems of forces
- * with finite elements. */
+/* 1: a static system of a force that offers the rows of K, a dynamic one too where ranks share them, or a
+ * system of a force with finite elements. */
 static int has_what_it_takes (const pg_system *s, const dynamics *dyn)
 {
     const pg_force_type *f = s->force;
@@ -79,7 +79,7 @@ static int has_what_it_takes (const pg_system *s, const dynamics *dyn)
     return !system_is_shared (s) || pg_shared_preconditioner_now ();
 }
 
-/* *can: has the system what a preconditioner takes, and do its supports leave unknowns for it? */
+/* *can 1: the system can be preconditioned by several levels, and its supports leave unknowns for it. */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     system_iterations *it = &s->iterative;
@@ -94,14 +94,14 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
     PG_ALLOC (it->fixed, s->ndof);
     if (s->force->spares.elements || system_is_shared (s)) PG_TRY (find_own_rows (s, T, can));
     else *can = selects (s, T);
-    if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* on all ranks */
+    if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* on all ranks or none */
     it->precondition = *can;
 done:
     return status;
 }
 
 /* ---- made ---------------------------------------------------------------------------------------------- */
-/* The number of unknowns of each level, for the report. */
+/* Writes the number of unknowns of each level into the report. */
 static void tell (pg_system *s)
 {
     system_iterations *it = &s->iterative;
@@ -124,7 +124,7 @@ static void tell (pg_system *s)
     if (at < workspace) snprintf (text + at, workspace - at, " unknowns");
 }
 
-/* By the rows of K. */
+/* Makes the multilevel preconditioner from the rows of K. */
 static pg_status make_by_rows (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -141,7 +141,8 @@ done:
     return status;
 }
 
-/* On a coarse grid functions carry the mass of their nodes. */
+/* Adds the mass to the elements: k K + m M, on a coarse grid with the mass of nodes restricted to its
+ * functions. */
 static pg_status weigh_coarse (pg_system *s, pg_elements *e, double k, double m)
 {
     pg_status status = PG_OK;
@@ -157,8 +158,9 @@ done:
     return status;
 }
 
-/* In motion the elements have the matrix k K + m M, with the mass of the displacements lumped: patterns of
- * unknowns that hardly move the nodes have less of it than here, and no stiffness either. */
+/* Makes the preconditioner by finite elements. In dynamics their matrix is k K + m M with the lumped mass of
+ * displacements: patterns of unknowns that hardly move the nodes have less of it than here, and no stiffness
+ * either. */
 static pg_status make_by_elements (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
@@ -178,14 +180,14 @@ done:
     return status;
 }
 
-/* Made of the bonds that live now; what it costs is counted as a factor would be. */
+/* Makes a preconditioner for the present bonds; its cost is counted as that of a factor would be. */
 pg_status system_make_preconditioner (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
     int can, whole;
     system_forget_preconditioner (s);
-    /* finds what constraints leave, also in a resumed run */
+    /* finds which unknowns constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
     s->iterative.made[0] = k, s->iterative.made[1] = m;
     PG_TRY (system_make_shared_factor (s, &whole));
@@ -202,9 +204,9 @@ done:
 }
 
 /* ---- used ---------------------------------------------------------------------------------------------- */
-/* Bonds between points make K here, and a point that hangs on a single bond has no stiffness across it:
- * rounding would move it by any amount. Nodes that lack a bond have weak springs, as in a factor.
- * What these change of the solution the residual, which has none of them, takes out again. */
+/* Marks nodes that lack a bond, which get weak springs as in a factor: where bonds between points make K, a
+ * point on a single bond has no stiffness across it, and rounding would move it by any amount. The residual,
+ * which is without springs, corrects their effect on the solution. */
 static pg_status hold_hanging (pg_system *s)
 {
     system_iterations *it = &s->iterative;
@@ -216,7 +218,7 @@ done:
     return status;
 }
 
-/* y += what the springs at nodes that lack a bond make of x. */
+/* y += the springs at nodes that lack a bond, times x. */
 static void add_hanging (const pg_system *s, const double *x, double *y)
 {
     size_t c = (size_t) s->components;
@@ -233,7 +235,7 @@ static void apply_free (void *context, const double *x, double *y)
     for (size_t i = 0; i < s->ndof; i++) if (s->iterative.fixed[i]) y[i] = 0;
 }
 
-/* By the rows of K: all unknowns, of which the prescribed ones stay zero. */
+/* Solves for all unknowns with the multilevel preconditioner; prescribed ones stay zero. */
 static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
 {
     pg_operator op = { s->ndof, s, apply_free, NULL };
@@ -250,8 +252,9 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
     return status;
 }
 
-/* Finite elements know all unknowns. With elimination, d = T q, the residual of q is put at the unknowns that
- * q are, and the result taken from there: at those that q determines the elements are held. */
+/* Preconditioner by finite elements, which know all unknowns. With elimination, d = T q, the residual of q
+ * is put at the unknowns that q selects, and the result taken from there; the elements are fixed at all
+ * others. */
 static pg_status by_elements (void *context, const double *r, double *z)
 {
     pg_status status = PG_OK;
@@ -271,13 +274,13 @@ done:
     return status;
 }
 
-/* What ranks that share the body have made together. */
+/* Preconditioner that ranks sharing the body have made together. */
 static pg_status by_ranks (void *context, const double *r, double *z)
 {
     return system_apply_shared (context, r, z);
 }
 
-/* Solves; keeps account of what an older preconditioner costs: pace is the gain of one iteration, as a
+/* Solves, and counts the iterations that an old preconditioner costs: pace is the gain of one iteration, as a
  * logarithm, when it was new. */
 static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, size_t *used)
 {
@@ -288,7 +291,7 @@ static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, s
     pg_status status = iterations->elements || system_by_ranks (s)
                            ? system_iterate (s, dyn, &P, tolerance, most, used)
                            : iterate_all (s, tolerance, used);
-    /* where it stopped early, less than was asked for */
+    /* less than `tolerance` was reached where the solve ended early */
     double gain = -log (fmax (iterations->fell, tolerance));
     if (iterations->pace == 0) iterations->pace = gain / (double) (*used + 1);
     else s->choice.extra_cost += fmax (0, (double) (*used + 1) - gain / iterations->pace);
@@ -312,7 +315,7 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
     if (system_is_shared (s) && s->direct.stale) PG_TRY (system_find_bare (s, dyn));
     strcpy (s->report->linear.solver, "cg");
     pg_status now = iterate (s, dyn, tolerance, &used);
-    /* made before the last break: once more */
+    /* it was made before the last break: try a new one */
     if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->report->linear.preconditioners == made) {
         PG_TRY (system_make_preconditioner (s, k, m));
         now = iterate (s, dyn, tolerance, &used);

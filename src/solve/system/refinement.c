@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Iterative refinement: solve, add, measure, until the out-of-balance force of the state is small. The
- * residual is taken from the force itself, not from K. How a state is judged that is not exactly in balance,
- * and the message for one that is refused. */
+ * residual is measured by the force itself, not by K. States that are not exactly in balance are judged here,
+ * and refused with a message. */
 #include "solve/run/body_parts.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,17 +10,17 @@
 enum { MOST_REFINEMENTS = 12 };
 static const double goal = 1e-12;                      /* refinement stops here or where it no longer gains */
 
-/* Where nothing resists (parts moved as rigid bodies) all forces are rounding, and their own size is no
- * measure. This makes the tolerance a backward error of 1e-14 there; with resistance it is far below the
- * forces. It grows with d, and with it what a body that nothing holds may leave unbalanced: who passes by it
- * alone has to be `settled`. */
+/* Forces due to rounding, N. Where nothing resists (parts moved as rigid bodies) all forces are rounding, and
+ * their own size is no measure: this makes the tolerance a backward error of 1e-14. With resistance it is far
+ * below the forces. It grows with d, and with it the unbalance allowed in a body that nothing holds: a state
+ * that is accepted by this alone has to be `settled`. */
 static double force_of_rounding (const pg_system *s, const double *d)
 {
     if (!(s->direct.mean_diagonal > 0)) return 0;
     return 1e-14 / s->options->tolerance * system_norm_owned (s, s->direct.diagonal0, d);
 }
 
-/* What a residual at rest may be compared with at most: the loads and the reactions that balance them, of
+/* Most that a static residual may be compared with, N: the loads and the reactions that balance them, of
  * this state or (unloaded) of one before. Where K is next to singular the forces of a state may be many times
  * larger, and cancel each other but for rounding. Prescribed displacements are loads by the forces that they
  * exert on a body that is held everywhere else, which bound their reactions; those of a load are larger by
@@ -35,9 +35,9 @@ static double largest_reference (pg_system *s)
     return fmax (b->lever * sum, b->borne);
 }
 
-/* The loads of t are known from now on: by the force on points at rest but for prescribed displacements, and
- * by the reference that the force itself has there: free strains load a body by forces that may balance each
- * other where it may not grow. `best` and `scratch` are free before a solve. */
+/* Measures the loads at t: the force at zero displacement but for prescribed ones, and the reference of the
+ * force there, as free strains load a body by forces that may balance each other where it cannot expand.
+ * `best` and `scratch` are free before a solve. */
 static pg_status know_loads (pg_system *s, double t)
 {
     system_balance *b = &s->balance;
@@ -99,13 +99,13 @@ done:
     return status;
 }
 
-/* Of 16 states one is measured all the same, and each that its carried residual would not excuse. */
+/* One in so many solves is measured even if the iterations have carried its residual along. */
 enum { MEASURED_AGAIN = 16 };
 
-/* The iterations have carried the residual of all rows along: b - A x by sums of the same products that the
- * force is made of. Measuring it again would only add its rounding, some 1e-15 of the reference where 1e-9 is
- * asked. Accepts the state by it: two sweeps over all bonds less a solve. That the residual before was small
- * (*relative) keeps the reference, which is that of the state before, within a tenth of the one at hand. */
+/* Accepts a state by the residual that the iterations have carried along for all rows, b - A x by sums of the
+ * same products as the force. Measuring it would only add rounding, some 1e-15 of the reference where 1e-9 is
+ * asked; this saves two loops over all bonds. As the residual before (*relative) was small, its reference is
+ * within a tenth of the present one. */
 static int accept_carried (pg_system *s, double *relative)
 {
     system_balance *b = &s->balance;
@@ -119,8 +119,8 @@ static int accept_carried (pg_system *s, double *relative)
     return 1;
 }
 
-/* Share of d that a refinement still moves: of the size of rounding where K resists, of the order of 1
- * where nothing holds the body. */
+/* Size of the last correction over that of d: of the order of rounding where K resists, of 1 where nothing
+ * holds the body. */
 static double restlessness (const pg_system *s, const double *step, const double *d)
 {
     double size = system_norm_owned (s, NULL, d), by = system_norm_owned (s, NULL, step);
@@ -129,8 +129,8 @@ static double restlessness (const pg_system *s, const double *step, const double
 
 static const double settled = 1e-3;
 
-/* Is a state that only rounding excuses one that K holds? *restless < 0: no refinement was made yet, and
- * one more is looked at. */
+/* Is a state that only the rounding allowance accepts held by K? *restless < 0: there was no refinement yet,
+ * and one is made to find it. */
 static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d, double *restless)
 {
     system_balance *b = &s->balance;
@@ -181,8 +181,8 @@ static pg_status refuse (pg_system *s, double residual, double restless)
                      s->options->tolerance, where);
 }
 
-/* The state is judged by its own forces. Those of a body without load vanish: then by the largest that an
- * accepted state has borne. Else rounding excuses it, if it is settled. */
+/* Judges the state by its own forces; in an unloaded body, where these vanish, by the largest reference of an
+ * accepted state; else by the forces of rounding, if the state is settled. */
 static pg_status judge (pg_system *s, const double *d, const dynamics *dyn, double r, double restless,
                         double *residual)
 {
@@ -215,7 +215,7 @@ static int guesses (const pg_system *s, const dynamics *dyn)
     return dyn && s->choice.begins && !s->options->plain && s->choice.mode != SYSTEM_FACTOR;
 }
 
-/* The prediction of the scheme is improved by what the last steps have learnt of it, and measured again. */
+/* Improves the prediction of the time scheme by the corrections of the last steps, and measures it again. */
 static pg_status improve (pg_system *s, double t, double *d, const dynamics *dyn, double *r)
 {
     pg_status status = PG_OK;
@@ -234,9 +234,8 @@ done:
     return status;
 }
 
-/* What iterations aim at, a share of the tolerance, of which a tenth is good enough. Rounds of breaking may
- * leave where they are the small forces that the solution at the begin of the step has left unbalanced all
- * over the body. */
+/* Residual that the iterations aim at, over the tolerance (a tenth would be accepted): smaller for the first
+ * solve of a step than for later rounds of breaking. */
 static double aim (const pg_system *s)
 {
     return s->choice.begins || s->choice.mode != SYSTEM_DIAGONAL ? 0.03
@@ -250,7 +249,7 @@ void system_go_on (pg_system *s, const double *d, const double *x, double *to)
     for (size_t i = 0; i < s->ndof; i++) to[i] = d[i] + step[i];
 }
 
-/* Room for the earlier iterate, once. */
+/* Allocates the vectors of the earlier iterate, once. */
 static pg_status rough_ready (pg_rough *rough, size_t ndof)
 {
     pg_status status = PG_OK;
@@ -260,7 +259,7 @@ done:
     return status;
 }
 
-/* Iterations alone can be left early. */
+/* Only solves by iterations can be ended early; with others *done is 0. */
 pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
                                 int *done)
 {
@@ -294,10 +293,9 @@ done:
     return status;
 }
 
-/* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
- * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
- * half, in itself or against the forces (which vanish with it in a body that is unloaded); then the state is
- * judged. */
+/* Iterative refinement: solve, add, measure by the force. It ends when the residual is small enough (1e-12
+ * with a factor, a tenth of the tolerance with iterations) or no longer falls by half, neither relative to
+ * the forces nor in itself (an unloaded body has no forces); then the state is judged. */
 static pg_status solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     system_balance *b = &s->balance;
@@ -342,7 +340,8 @@ done:
     return status;
 }
 
-/* Where there is no equilibrium at rest, its message names the part that nothing holds, or another reason. */
+/* Where a static solve finds no equilibrium, the message names the part that nothing holds, or another
+ * reason. */
 pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = solve_linear (s, t, d, dyn, residual);

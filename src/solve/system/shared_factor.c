@@ -1,38 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A factor of k K + m M as the preconditioner of ranks that share a small body, made by each of them of the
- * rows of all.
+ * A factor of k K + m M as preconditioner of ranks that share a small body: each rank makes all of it, from
+ * the rows of all ranks.
  *
- * Finite elements with wide shape functions (element_preconditioner.c) take polynomials of up to 32 terms,
- * before each of which ghosts ask their owners: more than 60 messages an iteration, a hundred iterations a
- * solve, and a solve for every bond that breaks. Where ranks have few points they wait for nothing else. Here
- * an iteration has one sum of the residual, and few iterations do: one for about every number that breaking
- * has changed since the factor was made. */
+ * Preconditioning by finite elements with wide shape functions (element_preconditioner.c) takes polynomials
+ * of up to 32 terms, and ghosts are exchanged before each: more than 60 messages an iteration, a hundred
+ * iterations a solve, and a solve for every bond that breaks. Ranks with few points spend their time waiting
+ * for messages. Here an iteration has one sum of the residual, and few iterations suffice: one for about
+ * every eigenvalue that breaking has changed since the factor was made. */
 #include "solve/run/solve.h"
 #include "perigal/ranks.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Unknowns up to which each rank has the whole factor: some ten milliseconds, the time of a few hundred
- * messages between processes that share cores. */
+/* Number of unknowns up to which each rank has the whole factor: some ten milliseconds, the time of a few
+ * hundred messages between processes that share cores. */
 enum { MOST_UNKNOWNS = 4000 };
-/* Share of its own that is added to the diagonal: fragments that nothing holds leave K singular. */
+/* Share of itself that is added to the diagonal, as fragments that nothing holds leave K singular. */
 static const double lift = 1e-10;
 
 struct shared_factor {
     const pg_linear_type *type;
     void   *factor;
     size_t  n;                                         /* unknowns of all ranks */
-    size_t *place;                                     /* of each point held, among all (points held) */
+    size_t *place;                                     /* index of each point held, among all (points held) */
     double *r, *z;                                     /* n */
 };
 
-/* An entry on its way: row and column among all, value. */
+/* Numbers of an entry of the matrix in a message: row and column among all unknowns, value. */
 enum { ENTRY = 3 };
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* Where each point held is among all in ascending order of their numbers, of which lattices with holes leave
- * some out. */
+/* Finds the index of each point held among all, in ascending order of their numbers (which have gaps in
+ * lattices with holes). */
 static pg_status find_places (struct shared_factor *f, const pg_subdomain *part)
 {
     pg_status status = PG_OK;
@@ -55,15 +55,15 @@ done:
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
-/* Is the entry of K between two unknowns held here told by this rank? By the owner of the point that comes
- * first, which has its whole row. */
+/* Does this rank send the entry of K between two points held here? The owner of the point that comes first
+ * does, as it has the whole row. */
 static int tells (const pg_system *s, const struct shared_factor *f, size_t a, size_t b)
 {
     const pg_subdomain *part = s->problem->cloud.subdomain;
     return part->owned[f->place[a] < f->place[b] ? a : b];
 }
 
-/* Entries of k K + m M that this rank tells; unknowns that constraints leave out couple with none. */
+/* Lists the entries of k K + m M that this rank sends; eliminated unknowns couple with none. */
 static pg_status list_entries (pg_system *s, const struct shared_factor *f, size_t *n, double **out)
 {
     system_iterations *it = &s->iterative;
@@ -97,7 +97,7 @@ static int by_column (const void *a, const void *b)
     return (x[0] > y[0]) - (x[0] < y[0]);
 }
 
-/* The upper triangle of all entries, every diagonal among them. */
+/* Builds the upper triangle of the matrix from all entries, with every diagonal entry. */
 static pg_status build (pg_sparse *A, size_t n, size_t count, double *entry)
 {
     pg_status status = PG_OK;
@@ -123,7 +123,7 @@ done:
 }
 
 /* ---- the preconditioner -------------------------------------------------------------------------------- */
-/* Whether ranks make it: the same answer on all. */
+/* *yes 1: the factor is made; equal on all ranks. */
 static pg_status may (pg_system *s, int *yes)
 {
     pg_status status = PG_OK;
@@ -172,7 +172,7 @@ pg_status system_make_shared_factor (pg_system *s, int *made)
     pg_linear_options o = { s->components, s->problem->dim, 1, 0, 1 };
     PG_TRY (f->type->analyse (&f->factor, &A, &o));
     pg_status now = f->type->factor (f->factor, &A);
-    if (now == PG_E_NOT_SPD) {                         /* on all ranks: elements, which are */
+    if (now == PG_E_NOT_SPD) {  /* on all ranks: finite elements instead, which are positive definite */
         *made = 0;
         system_free_shared_factor (s);
         goto done;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The linear system where ranks share the body (perigal/ranks.h). Each has the equations of the points that
- * it owns; its vectors have entries of ghosts too, which products with K need: those of displacements are
- * what their owners say, those of forces are 0, so that sums over all ranks count every equation once. Alone
- * everything here is what a plain loop does. */
+ * The linear system where ranks share the body (perigal/ranks.h). Each rank has the equations of the points
+ * that it owns; its vectors contain ghosts too, which products with K need: ghost displacements are those of
+ * their owners, ghost forces are 0, so that sums over all ranks count every equation once. With one process
+ * all functions here reduce to plain loops. */
 #include "solve/run/solve.h"
 #include "perigal/ranks.h"
 #include <math.h>
@@ -24,7 +24,7 @@ void system_clear_ghosts (const pg_system *s, double *force)
     pg_subdomain_clear_ghosts (part_of (s), (size_t) s->components, force);
 }
 
-/* What ranks add up; a sum that they lose each other in is not finite, which the next residual tells. */
+/* The sum of `mine` over all ranks; NaN where communication fails, which the next residual reports. */
 double system_sum (const pg_system *s, double mine)
 {
     if (part_of (s) && pg_ranks_sum (1, &mine) != PG_OK) return NAN;
@@ -68,7 +68,7 @@ void system_multiply_shared (const pg_system *s, const pg_operator *op, const do
 }
 
 /* ---- the preconditioner -------------------------------------------------------------------------------- */
-/* The matrix k K + m M of a preconditioner, s->made: as an operator, and its rows. */
+/* The matrix k K + m M that the preconditioner is made for (iterative.made): as an operator, and its rows. */
 static void apply_made (void *context, const double *x, double *y)
 {
     const pg_system *s = context;
@@ -100,7 +100,7 @@ static size_t row_made (void *context, size_t i, int thread, int *node, double *
     return m;
 }
 
-/* Do all ranks have a lattice? (Rows that many points have in common only some of them may know.) */
+/* 1: all ranks have a lattice (else only some ranks may know rows that many points have in common). */
 static int has_lattice (const pg_system *s)
 {
     const pg_sums *sums = s->problem->sums;
@@ -108,7 +108,7 @@ static int has_lattice (const pg_system *s)
     return system_most (s, !(sums && sums->stencil.n && own->high[0] > own->low[0])) == 0;
 }
 
-/* On a lattice ranks smooth their own points. */
+/* Multilevel preconditioner on a lattice; each rank smooths its own points. */
 static pg_status make_levels (pg_system *s, const pg_couplings *rows)
 {
     system_iterations *it = &s->iterative;
@@ -131,7 +131,8 @@ done:
     return status;
 }
 
-/* Of the rows of points that are owned here; off a lattice by what perigal-mpi brings along. */
+/* Makes the preconditioner from the rows of the points owned here; without a lattice by the one that
+ * perigal-mpi brings along. */
 pg_status system_make_shared (pg_system *s, double k, double m)
 {
     system_iterations *it = &s->iterative;
@@ -152,7 +153,7 @@ done:
     return status;
 }
 
-/* 1: the preconditioner at hand is one of the above. */
+/* 1: the preconditioner at hand is one that ranks have made together. */
 int system_by_ranks (const pg_system *s)
 {
     return s->iterative.amg || s->iterative.whole_factor || (s->iterative.multilevel && system_is_shared (s));
@@ -167,8 +168,8 @@ static pg_status solve_together (pg_system *s, const double *r, double *z)
     return P.solve (P.context, r, z);
 }
 
-/* Unknowns of points without a bond that lives: no stiffness holds them, and they stay where they are, which
- * coarse grids would not let them do. */
+/* Marks the unknowns of points without an intact bond (statics): nothing holds them, and they keep their
+ * value, which coarse grids would change. */
 pg_status system_find_bare (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -183,14 +184,14 @@ done:
     return status;
 }
 
-/* What is left of a preconditioned residual. */
+/* Clears ghosts and bare unknowns in a preconditioned residual. */
 void system_clear_rest (const pg_system *s, double *z)
 {
     system_clear_ghosts (s, z);
     for (size_t i = 0; s->iterative.bare && i < s->ndof; i++) if (s->iterative.bare[i]) z[i] = 0;
 }
 
-/* With elimination the residual of q is put at the unknowns that q are. */
+/* Preconditioner of ranks; with elimination the residual of q is put at the unknowns that q selects. */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z)
 {
     system_balance *b = &s->balance;

@@ -18,7 +18,7 @@ static void apply (lanczos *l, const double *v)
     for (size_t i = 0; i < l->s->ndof; i++) l->w[i] *= l->scale[i];
 }
 
-/* T of the three-term recursion; returns its size. */
+/* Fills the tridiagonal matrix T of the three-term recursion; returns its size. */
 static int recur (lanczos *l, double *T)
 {
     size_t n = l->s->ndof;
@@ -37,8 +37,8 @@ static int recur (lanczos *l, double *T)
     return STEPS;
 }
 
-/* Lanczos from a fixed pseudo-random vector: the same answer in every run. Sixteen steps are enough for
- * the largest eigenvalue within 1 %. */
+/* Finds the largest frequency by Lanczos steps from a fixed pseudo-random vector: the same answer in every
+ * run. Sixteen steps give the largest eigenvalue within 1 %. */
 pg_status pg_solver_fastest (pg_solver *s, const pg_state *state, double *omega)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The linear system of a force, (k K + m M) delta = R: its life, and what changes with the bonds that live.
+ * The linear system of a force, (k K + m M) delta = R: how it is made and freed, and how it follows breaking.
  * With elimination d = T q + g the matrix is T' (k K + m M) T (system_factor.c) and the residual T' R.
- * Solving begins in refinement.c (system_solve); what each solve is done by is the business of choice.c: a
+ * Solving begins in refinement.c (system_solve); the method of each solve is chosen in choice.c: a
  * factor (system_factor.c, kept_factor.c), its inverse after changes (inverse.c), or iterations
  * (iterate.c). */
 #include "solve/run/body_parts.h"
@@ -70,9 +70,9 @@ done:
     return status;
 }
 
-/* The force updates what broken bonds have touched. Where its revision says that this left K as it was
- * (bonds that do not enter K), the factor stays. K of ranks that share the body is another one where that of
- * any of them is: all call after a round of breaking. */
+/* The force updates what broken bonds have touched. Where its revision says that this left K as it was (bonds
+ * that do not enter K), the factor stays. Where ranks share the body, K counts as changed on all of them if
+ * it is on one: all call after a round of breaking. */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     system_factor *f = &s->direct;
@@ -95,8 +95,8 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     return status;
 }
 
-/* The matrix is another one from here on, with or without inertia, whatever K does. A factor of the old one
- * is no preconditioner of the new one: its next use makes a new one. */
+/* From now on the matrix is another one, with or without inertia, even if K stays. A factor of the old matrix
+ * does not precondition the new one: its next use makes a new one. */
 void system_switch (pg_system *s, int mode)
 {
     s->choice.mode = mode, s->direct.stale = 1, s->iterative.guess.n = 0;

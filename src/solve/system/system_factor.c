@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The matrix that was made for a factor is not needed any more: K has its own diagonal again, copies and what
- * constraints left of it go. */
+/* Frees what was made for a factor: K gets its own diagonal back; copies, and K reduced by constraints, are
+ * freed. */
 void system_release_matrix (pg_system *s)
 {
     system_factor *f = &s->direct;
@@ -22,8 +22,8 @@ void system_release_matrix (pg_system *s)
     f->own_diagonal = f->copy = NULL, f->owned = 0;
 }
 
-/* The values that a matrix is made in: of K at rest those of K itself, whose diagonal is kept meanwhile, else
- * a copy. Solvers without a factor keep looking at what they were given. */
+/* *value: the array for the values of the matrix: of static K those of K itself, whose diagonal is kept
+ * meanwhile, else a copy. Linear solvers without a factor go on reading the matrix they were given. */
 static pg_status take_values (pg_system *s, const pg_sparse *K, const dynamics *dyn, double **value)
 {
     system_factor *f = &s->direct;
@@ -41,10 +41,9 @@ done:
     return status;
 }
 
-/* value = k K + m M, and a shift on weak unknowns: those of touched nodes, those without stiffness from
- * the start, and those whose diagonal has changed. Next to no stiffness from the start is shifted by a share
- * of itself, which refinement can take out again. With a mass nothing is singular but what has no mass
- * either. */
+/* value = k K + m M, with a spring on weak unknowns: those of touched nodes, those without stiffness from the
+ * start, and those whose diagonal has changed. Unknowns with very little stiffness from the start get a share
+ * of it, which refinement corrects. With mass only unknowns without mass are singular. */
 static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, double *value)
 {
     system_factor *f = &s->direct;
@@ -64,14 +63,15 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     for (size_t j = 0; m == 0 && j < f->props.n; j++)
         value[K->start[f->props.unknown[j] + 1] - 1] += f->mean_diagonal;
     if (m != 0) system_add_mass_matrix (s, m, K, value);
-    /* a point that no evaluation point sees has no consistent mass either */
+    /* a point that is no evaluation point's neighbour has no consistent mass either */
     for (size_t j = 0; j < s->ndof && m != 0; j++) {
         long q = K->start[j + 1] - 1;
         if (!(fabs (value[q]) > 1e-11 * k * f->mean_diagonal)) value[q] += 1e-11 * k * f->mean_diagonal;
     }
 }
 
-/* Frees the matrix made for a factor; K too at rest where nothing breaks: one factor serves the whole run. */
+/* Frees the matrix made for a factor; K too in statics where nothing breaks: one factor serves the whole
+ * run. */
 static void let_all_go (pg_system *s, const dynamics *dyn)
 {
     system_release_matrix (s);
@@ -81,8 +81,8 @@ static void let_all_go (pg_system *s, const dynamics *dyn)
     s->direct.forgotten = s->force->matrix (s->self, PG_MATRIX_FREED, &K) == PG_OK && !K->value;
 }
 
-/* Assembles K, adds mass and shift, and takes out what constraints eliminate (T' K T). Without constraints
- * the pattern is that of K, which is borrowed. */
+/* Assembles K, adds mass and springs, and eliminates constraints (T' K T). Without constraints the pattern is
+ * that of K, which is borrowed. */
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -104,7 +104,7 @@ done:
     return status;
 }
 
-/* For solvers that tell when they have read the matrix. */
+/* For linear solvers that call back when they have read the matrix. */
 typedef struct { pg_system *s; const dynamics *dyn; } matrix_owner;
 static void taken (void *context)
 {
@@ -112,7 +112,7 @@ static void taken (void *context)
     let_all_go (o->s, o->dyn);
 }
 
-/* The values of A go as soon as the solver has them, if it has a factor of its own. */
+/* Factors A, whose values are freed as soon as the linear solver has them, if it has a factor of its own. */
 static pg_status make_factor (pg_system *s, const dynamics *dyn)
 {
     system_factor *f = &s->direct;
@@ -146,8 +146,8 @@ done:
     return status;
 }
 
-/* The smallest pivot of the last factorization over the largest: parts that nothing holds leave one of the
- * size of rounding. */
+/* The smallest pivot of the last factorization over the largest: parts that nothing holds leave a pivot of
+ * the size of rounding. */
 static double pivots (const pg_system *s)
 {
     pg_linear_info info;
@@ -156,7 +156,7 @@ static double pivots (const pg_system *s)
 }
 static const double least_pivot = 1e-13;
 
-/* Nodes of parts that supports do not hold count as touched. 1: there are such parts. */
+/* Marks the nodes of parts that supports do not hold as touched. 1: there are such parts. */
 static int touch_free_parts (pg_system *s)
 {
     body_parts parts;
@@ -168,10 +168,9 @@ static int touch_free_parts (pg_system *s)
     return any;
 }
 
-/* No bond has negative energy, but those of a chain or a sheet leave motions free. So do supports that hold
- * a part of the body along some axes only, or not at all: rounding decides whether such a matrix passes for
- * positive definite. These unknowns get the shift, once; loads that need no support are in balance all the
- * same, which the residual tells. */
+/* Puts springs on all unknowns, or those of parts that supports do not fully hold, once (returns 1): bonds of
+ * a chain or a sheet, though none has negative energy, leave motions free, and rounding decides whether such
+ * a matrix is positive definite. Whether loads that need no support balance, the residual tells. */
 static int weaken_all (pg_system *s, const dynamics *dyn)
 {
     system_factor *f = &s->direct;
@@ -182,12 +181,12 @@ static int weaken_all (pg_system *s, const dynamics *dyn)
     return 1;
 }
 
-/* Factors. Where the factor serves many events the springs of weak unknowns would show in all of them: they
- * are left out as long as no part is loose, and unknowns without stiffness, which nothing is coupled to, get
- * their old one. A matrix that is not positive definite gets a larger shift on its weak unknowns (1e-11,
- * 1e-9, 1e-7 of the mean diagonal), then on all of them where bonds (chains, sheets) or supports leave
- * motions free; other Galerkin forms go to a solver for general matrices under linear: auto, as terms of
- * Nitsche with too small a factor make K indefinite. */
+/* Factors the matrix. Where a factor serves many events the springs of weak unknowns would show in all of
+ * them: they are left out as long as no part is loose, and uncoupled unknowns without stiffness get their old
+ * one. A matrix that is not positive definite gets larger springs on its weak unknowns (1e-11, 1e-9, 1e-7 of
+ * the mean diagonal), then on all where bonds (chains, sheets) or supports leave motions free; other Galerkin
+ * forms get a solver for general matrices (linear: auto), as Nitsche terms with too small a factor make K
+ * indefinite. */
 pg_status system_factorize (pg_system *s, const dynamics *dyn)
 {
     system_factor *f = &s->direct;

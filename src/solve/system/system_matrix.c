@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K of a linear system: the matrix or the product of the force, its first diagonal, the bonds that it is made
- * of, and what work with it costs. All costs are seconds by stored rates, from numbers of bonds, points and
- * unknowns (mechanics/model/solve_costs.c) and of operations; never measured, as a run must not depend
- * on the clock. */
+ * K of a linear system: the matrix or the product K x of the force, the first diagonal of K, the bonds at the
+ * time of a factor, and what work with K costs. All costs are seconds by stored rates, from numbers of bonds,
+ * points and unknowns (mechanics/model/solve_costs.c) and of operations; never measured, as a run must not
+ * depend on the clock. */
 #include "solve/run/solve.h"
 #include <math.h>
 #include <string.h>
 
-/* A force may have a matrix in general, yet none for the options of this problem: dilatations reach
- * neighbours of neighbours, and only their product with K is known. */
+/* 1: the force has a matrix. It may have one in general, yet none for the options of this problem:
+ * dilatations reach neighbours of neighbours, and only their product with K is known. */
 int system_has_matrix (const pg_system *s)
 {
-    if (system_is_shared (s)) return 0;                /* each rank has its rows, and products with them */
+    if (system_is_shared (s)) return 0;  /* each rank has rows of its points, and products with them */
     return pg_force_matrix (s->force, s->self) != NULL;
 }
 const pg_sparse *system_basis (const pg_system *s)
@@ -55,8 +55,8 @@ void system_multiply (const pg_system *s, const double *x, double *y)
     else pg_sparse_multiply (pg_force_matrix (s->force, s->self), x, y);
 }
 
-/* Mean of the first diagonal without entries above `most`, N/m; of their logarithms where `most` is infinite
- * (without zeros): the geometric mean. */
+/* Mean of those entries of the first diagonal that are at most `most`, N/m; `most` infinite: the geometric
+ * mean of all entries above zero. */
 static double mean_of_diagonal (pg_system *s, double most)
 {
     double sum = 0, number = 0;
@@ -71,8 +71,8 @@ static double mean_of_diagonal (pg_system *s, double most)
     return number > 0 ? logarithms ? exp (sum / number) : sum / number : 0;
 }
 
-/* The first diagonal and its mean, N/m: they tell which unknowns have become weak, and how large forces
- * of rounding are. Penalties on a few points, a million times as stiff, are not in the mean. */
+/* Stores the first diagonal and its mean, N/m: they tell which unknowns have become weak, and how large
+ * forces of rounding are. Penalties on a few points, a million times as stiff, are not in the mean. */
 void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
     system_factor *f = &s->direct;
@@ -85,8 +85,8 @@ void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 }
 
 /* ---- what it is made of -------------------------------------------------------------------------------- */
-/* Nodes of points that lack a bond. Of pre-cracks once: breaking changes the diagonal of such nodes, which is
- * how weak unknowns are found later, but the first K is already without the bonds across a pre-crack. */
+/* Marks the nodes of points that lack a bond. Pre-cracks need this once: nodes weakened by later breaking are
+ * found by the change of their diagonal, but the first K is already without the bonds across a pre-crack. */
 void system_mark_touched (const pg_system *s, const unsigned char *bonds, unsigned char *touched)
 {
     for (int set = 0; set < PG_BOND_SETS; set++) {
@@ -99,7 +99,7 @@ void system_mark_touched (const pg_system *s, const unsigned char *bonds, unsign
     }
 }
 
-/* A copy of cracks that grow, in its own memory. */
+/* Copies cracks that grow; the copy has its own memory. */
 pg_status system_copy_paths (const pg_system *s, pg_crack_paths **to, const pg_crack_paths *from)
 {
     pg_status status = PG_OK;
@@ -110,8 +110,8 @@ done:
     return status;
 }
 
-/* The bonds that live when a factor or preconditioner is made, and the cracks: a resumed run makes the same
- * ones again from them, bit by bit. */
+/* Copies the alive bits and the cracks when a factor or preconditioner is made: a resumed run makes the same
+ * again from them, bit by bit. */
 pg_status system_remember_alive (pg_system *s)
 {
     system_factor *f = &s->direct;
@@ -142,14 +142,14 @@ double system_assembly_cost (const pg_system *s)
     return pg_solve_assembly_cost (&c);
 }
 
-/* Assembly, analysis, factor. */
+/* Seconds of assembly, analysis and factorization. */
 double system_direct_cost (const pg_system *s)
 {
     pg_solve_counts c = pg_solve_count (s->problem);
     return pg_solve_direct_cost (&c);
 }
 
-/* Supernodal factorization. */
+/* Seconds of a supernodal factorization. */
 double system_factor_cost (const pg_system *s) { return s->report->linear.factor_flops / 20e9; }
-/* Four passes over the factor: two triangular solves, each read twice over a refinement. */
+/* Seconds of two triangular solves, each of which reads the factor twice over a refinement: four passes. */
 double system_solve_cost (const pg_system *s) { return 4 * s->report->linear.factor_entries / 3e9; }
