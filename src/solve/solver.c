@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The force is that of the problem; pg_solver_create_with is for tests that bring one of their own. */
+/* Creates a solver with the force of the problem; pg_solver_create_with: with a force of the caller. */
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
 {
     const pg_force_type *force = pg_force_of (problem);
@@ -442,7 +442,7 @@ static void warn_of_facets (pg_solver *s)
     s->warned_facets = 1;
 }
 
-/* What a result may be doubted for: breaking that fed in energy, where it should take some (rounding and
+/* Warns once where results are doubtful: breaking that fed in energy, where it should take some (rounding and
  * iterations leave less open than 1e-6 of the work of loads); crack faces that overlap by more than a
  * thousandth of the largest displacement. Told once. */
 static void warn_at_end (pg_solver *s, const pg_state *state)
@@ -476,7 +476,7 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
     }
 }
 
-/* Statistics at any time, with what only a look at the state tells: isolated points, parts, overlap of
+/* Statistics at any time, with numbers that need an examination of the state: isolated points, parts, overlap of
  * crack faces. */
 const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {

@@ -25,7 +25,7 @@ pg_status keep_state_numbers (pg_state *s, const char *name, const pg_keeper *k)
 }
 
 /* All of a state: counts, times, displacement, velocity, acceleration, the alive bit of every bond, cracks.
- * `name` tells the state at hand from that at the start of the step. */
+ * `name`: the present state, or that at the start of the step. */
 static pg_status keep_state (pg_state *s, const pg_problem *p, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -150,7 +150,7 @@ done:
     return status;
 }
 
-/* Does the force offer K x without a matrix? */
+/* 1: the force offers K x without a matrix. */
 static int operates (const pg_system *s) { return s->force->operator_ && s->force->operator_ (s->self); }
 
 /* 2D: the cracks at the time when the alive bits `factored` were copied. */
@@ -215,7 +215,7 @@ static pg_status keep_ways (pg_ways *w, pg_rough *rough, const pg_keeper *k)
         PG_KEPT (w->bonds), PG_KEPT (w->fresh), PG_KEPT (w->spent), PG_KEPT (rough->share)));
 }
 
-/* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. A
+/* Keeps the linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. A
  * way to solve that this force does not have is refused. */
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {

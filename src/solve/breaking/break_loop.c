@@ -188,7 +188,7 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     return over;
 }
 
-/* The largest utilisation of all bonds; above 1, `over` lists those that may break now. */
+/* *top = largest utilisation of all bonds; above 1, `over` lists the bonds that may break now. */
 static pg_status look (break_loop *b, const pg_state *state, const double *d, double *top)
 {
     pg_status status = PG_OK;

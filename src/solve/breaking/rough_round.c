@@ -86,7 +86,7 @@ static int decides (size_t n, const double *now, const double *rougher, double t
     return top - error > 1;
 }
 
-/* *yes: do both iterates leave no doubt which bonds of the last look break? top: largest utilisation. */
+/* *yes: do both iterates leave no doubt which of the bonds judged last break? top: largest utilisation. */
 static pg_status decides_all (break_loop *b, double top, int *yes)
 {
     pg_status status = PG_OK;

@@ -91,7 +91,7 @@ typedef struct {
 } contact_compliance;
 struct system_contact {
     pg_contact_setting setting;
-    pg_contact_pieces  pieces;                         /* of cracks, then of platens */
+    pg_contact_pieces  pieces;                         /* pieces of cracks, then of platens */
     size_t    ncrack;                                  /* pieces of cracks */
     contact_platens platens;
     contact_loose   loose;
@@ -105,12 +105,12 @@ struct system_contact {
     /* compliance of the layer between closed crack faces, m/N (dim ncrack), 0: sharp faces; stiffer: most
      * stiffness of the layer over that of the bonds that crossed it */
     double   *soft, stiffer;
-    unsigned char *status;                             /* of each piece (n) */
-    double   *nodal;                                   /* G' f, N (ndof) */
+    unsigned char *status;                             /* pg_contact_status of each piece (n) */
+    double   *nodal;                                   /* contact forces on nodes, G' f, N (ndof) */
     /* force in the equations of a time step over the mean force of the step; 1 in statics */
     double    weight;
     double   *rebound;                                 /* dynamics: mean of impulses over the step, N (n) */
-    pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
+    pg_contact_values *shown;  size_t nshown, cap_shown;         /* pieces of the last step, for results */
     pg_face_piece *press;                              /* pressing pieces near the last tip examined (n) */
     contact_route route;
     contact_memory now, start;                         /* start: at the start of the step */

@@ -39,7 +39,7 @@ typedef struct {
     pg_system *s;
     struct system_contact *c;
     size_t  m, rows;
-    double  size;                                      /* of the body, m: radius of arcs of rotations */
+    double  size;                                      /* size of the body, m: radius of arcs of rotations */
     double  noise;                                     /* size of forces that are rounding, N */
     motion *motion;
     double *B, *Q, *S, *y, *C, *gap;

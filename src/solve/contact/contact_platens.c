@@ -151,7 +151,7 @@ void platens_take (pg_system *s)
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Columns of two matrices side by side, of the second one those that are taken. */
+/* out = columns of two matrices side by side; of b those whose pieces are taken. */
 static pg_status join_columns (pg_sparse *out, const pg_sparse *a, const pg_sparse *b, size_t width,
                                const unsigned char *taken)
 {

@@ -80,7 +80,7 @@ static void show_forces (pg_system *s)
 }
 
 /* Notes the contact forces that the present linear stretch of the path would have at s = 0, once for each
- * stretch: what is measured by them does not depend on where along it the state stands. */
+ * stretch: what is measured by them does not depend on the position of the state on it. */
 static void note_line (pg_system *s)
 {
     struct system_contact *c = s->contact;

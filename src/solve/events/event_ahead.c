@@ -68,7 +68,7 @@ static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes 
     pg_system *sys = &s->break_loop.system;
     long updates = s->report.linear.updates, kept = sys->choice.kept;
     pg_status status = system_refresh (sys, state, changes);
-    s->report.linear.updates = updates, sys->choice.kept = kept;         /* a trial is no event of the run */
+    s->report.linear.updates = updates, sys->choice.kept = kept;         /* a trial does not count as an update of the run */
     return status;
 }
 

@@ -47,7 +47,7 @@ typedef struct event_ahead {
     double      *d, *scaled, *some;                    /* ndof; known at the nodes of the group only */
     double      *block;                                /* displacements after each event, [unknown][event] */
     double       cold;  /* largest utilisation per load factor of all other bonds; < 0: not known */
-    double       residual;                             /* of the last event that was found */
+    double       residual;                             /* residual of the last event that was found */
     /* events found, of which `at` were handed out; stride: events that the block was made for */
     ahead_event  event[AHEAD_MOST];  size_t nevent, at, stride;
     pg_broken   *broken;  size_t nbroken, cap_broken;  /* bonds of all events, one after the other */

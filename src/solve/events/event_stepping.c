@@ -97,7 +97,7 @@ static pg_status begin_stage (pg_solver *s, pg_state *state, double ended)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     size_t n = s->break_loop.system.ndof;
-    const double share = ended - stage_start (s) + 1;  /* of the stage before */
+    const double share = ended - stage_start (s) + 1;  /* share of the stage before */
     for (size_t i = 0; i < n; i++)
         e->base[i] = e->unit[i] = e->base[i] + share * (e->unit[i] - e->base[i]);
     s->break_loop.system.balance.borne =

@@ -13,7 +13,7 @@ typedef struct {                                       /* state of `static` with
     int       driven;  /* 1: the event of this step is one of these */
     int       arrested;                                /* 1: nothing grows any more after this event */
     int       bears;  /* 1: the state at the start of this step is in equilibrium with its load */
-    double    unit_residual;                           /* of `unit` (and `base`) */
+    double    unit_residual;                           /* residual of `unit` (and `base`) */
     event_solver *engine;  /* exact equilibria after breaks without a new factor; NULL: not used */
     double    engine_residual;                         /* residual of the base of `engine` */
     int       lost;  /* a step was refused: `unit` and `base` are first guesses only */

@@ -33,8 +33,9 @@ typedef struct {
     struct explicit_contact *contact;                  /* short-range; NULL: none */
 } motion;
 static inline motion *motion_of (const pg_solver *s) { return s->own; }
-/* Unknowns that are processed together; the compiler knows this number. */
-enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows */
+enum { LANES = 8 };                                   /* unknowns processed at once (a constant) */
+/* Sums over unknowns. A, B: work of loads over the half step before t_n and after; C, D: m v_n v before and
+ * after; K: m v v; BAD: NaN where a number is not finite; FAST: largest velocity (contact by search). */
 enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUM_FAST, SUMS };
 
 /* ---- explicit.c ---------------------------------------------------------------------------------------- */
@@ -86,7 +87,7 @@ double    explicit_contact_rate   (const pg_solver *s);
 /* Adds contact forces to the residual of all other forces, supports being at the next time; first 1: no step
  * has led to this state. */
 pg_status explicit_contact_add    (pg_solver *s, pg_state *state, double t, int first);
-double    explicit_contact_kinetic (const pg_solver *s);               /* of platens, J */
+double    explicit_contact_kinetic (const pg_solver *s);               /* kinetic energy of platens, J */
 int       explicit_contact_active (const pg_solver *s);                /* 1: some force is not zero */
 void      explicit_contact_forces (const pg_solver *s, double *out);   /* out += contact forces, N (ndof) */
 void      explicit_contact_show   (pg_solver *s);

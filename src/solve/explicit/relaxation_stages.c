@@ -13,8 +13,8 @@ int relaxation_breaks (const pg_solver *s)
     return (force->motion.balance_and_break || force->judge) && pg_criterion_of_bonds (s->problem->criterion);
 }
 
-/* The smallest stretch that breaks a bond, by the criterion itself; INFINITY where stretch does not
- * decide. */
+/* The smallest stretch that breaks a bond, by the criterion itself; INFINITY where the criterion is
+ * another one. */
 static double smallest_stretch (const pg_problem *p)
 {
     double xi[3] = { p->cloud.h, 0, 0 }, eta[3] = { p->cloud.h, 0, 0 }, utilisation, s0 = INFINITY;

@@ -58,7 +58,7 @@ typedef struct {
     facet_hold *hold; size_t nhold, cap_hold;
 } facet_start;
 
-/* What the event at hand did. */
+/* Outcome of the present growth event. */
 typedef struct {
     /* closed: a tip met the surface or a crack; began: a new crack formed; going: a tip goes on; tried: a
      * trial facet of a tip is among it; energy: what all its facets take, J. */
@@ -81,7 +81,7 @@ typedef struct {
     facet_start start;
 } facet_motion_state;
 typedef struct facet_growth {
-    double  length;                                    /* of a facet, m; 0: the local spacing */
+    double  length;                                    /* length of a facet, m; 0: the local spacing */
     pg_nearest *near;                                  /* nodes by position, for the material at a point */
     /* Last measurement, valid if `fresh`: nfield 1: load factor times one field; 2: a constant field and load
      * factor times another. */
@@ -96,7 +96,7 @@ typedef struct facet_growth {
     struct front_growth *fronts;                       /* 3D: front_growth.c; else NULL */
     /* energy that all facets took so far; at the start of the step, J */
     double  needed, needed0;
-    facet_event_marks event;                           /* of the event at hand */
+    facet_event_marks event;                           /* outcome of the present event */
     facet_motion_state motion;
     unsigned said;                                     /* warnings given so far: FACET_SAID_... */
 } facet_growth;

@@ -19,7 +19,7 @@ enum { RADII = 3, RIM = 24, RINGS = 3, SPOTS = 2, SIDES = 24, ROUNDS = 2, STEPS 
 
 /* A trial disc: a new crack in 3D. */
 typedef struct {
-    double centre[3], normal[3], across[2][3];         /* m; unit vectors, the last two in the plane */
+    double centre[3], normal[3], across[2][3];         /* centre, m; unit vectors, the last two in the plane */
     double h, modulus, strength, energy;               /* m; E', Pa; Pa; J/m^2 */
     double factor, radius;                             /* load factor at which it forms; m */
     trial_sizes sizes;                                 /* energy that discs of several radii release */
@@ -275,7 +275,7 @@ static pg_status factor_of (const search *g, const disc *d, double R, const doub
     const pg_problem *p = problem_of (g);
     PG_TRY (tension_on (g, d, R, mean, least, rim));
     if (!*rim) goto done;
-    if (!release) {                                    /* by the energy of the mean tension */
+    if (!release) {                                    /* estimate by the energy of the mean tension */
         double share = share_inside (p, d, R), f = d->strength,
                all = 8 * f * f * R * R * R / (3 * d->modulus) * share * (share < 0.75 ? 1.26 : 1);
         own[0] = all * mean[0] * mean[0], own[1] = 2 * all * mean[0] * mean[1];

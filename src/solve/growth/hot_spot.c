@@ -45,7 +45,7 @@ static double strength_factor (const affine_stress *s, double f, double w)
     double C = (f - m0) * (f - m0) - d0 * d0 - t0 * t0, B = -(f - m0) * m1 - d0 * d1 - t0 * t1,
            A = m1 * m1 - d1 * d1 - t1 * t1, least = INFINITY;
     if (m0 + hypot (d0, t0) >= f) return 0;
-    double disc = B * B - A * C;                       /* of A lambda^2 + 2 B lambda + C = 0 */
+    double disc = B * B - A * C;                       /* discriminant of A lambda^2 + 2 B lambda + C */
     if (disc < 0) return INFINITY;
     double q = -(B + copysign (sqrt (disc), B));
     double root[2] = { A != 0 ? q / A : INFINITY, q != 0 ? C / q : INFINITY };

@@ -133,7 +133,7 @@ static pg_status find_tension (const break_loop *b, const pg_state *state, const
     double x[2 * PLACES], u[3 * PLACES], stress[6 * PLACES], sum[2] = { 0, 0 };
     double t[2] = { c->to[0] - at->x[0], c->to[1] - at->x[1] }, length = hypot (t[0], t[1]);
     double n[2] = { -t[1] / length, t[0] / length };
-    /* stress of a crack of that energy about a facet away */
+    /* 1e6 over the stress about a facet ahead of a crack with this energy release rate */
     double scale = 1e6 / sqrt (at->modulus * c->energy / s->problem->cloud.thickness) * length;
     c->stress[0] = c->stress[1] = NAN;
     if (!s->force->sample || !(at->modulus > 0) || !(length > 0)) return PG_OK;

@@ -132,7 +132,7 @@ static void add_resistance (void *context, const double *d, double *residual)
     for (size_t i = 0; i < n->system->ndof; i++) residual[i] -= Ma[i];
 }
 
-/* With r = P - F - C v the equations are (1 + alpha) r - alpha r_t - M a = 0: r - M a, alpha (r_t - M a) /
+/* x -= what the equations leave at the end of the step. With r = P - F - C v the equations are (1 + alpha) r - alpha r_t - M a = 0: r - M a, alpha (r_t - M a) /
  * (1 + alpha), is left at the end of the step. */
 static void add_weights (void *context, const double *d, double *x)
 {
@@ -155,7 +155,7 @@ const dynamics *newmark_matrix (newmark *n)
     return &n->dyn;
 }
 
-/* Interrupted between its rounds of breaking the step goes on from the displacements at hand. */
+/* A step that was interrupted between rounds of breaking goes on from its present displacements. */
 pg_status newmark_advance (newmark *n, break_loop *b, const pg_state *from, pg_state *state, double t,
                            pg_step *step)
 {

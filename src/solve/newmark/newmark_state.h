@@ -39,7 +39,7 @@ const dynamics *newmark_matrix (newmark *n);           /* coefficients of the fa
 pg_status newmark_supports (newmark *n, double t, int start);          /* fills `support` for time t */
 /* Sets V and A of prescribed nodes from `support`. */
 void      newmark_follow   (newmark *n, double t, double *v, double *a);
-void      newmark_damp     (newmark *n, const double *v, double *residual);                   /* -= C v */
+void      newmark_damp     (newmark *n, const double *v, double *residual);                   /* residual -= C v */
 pg_status newmark_remember (newmark *n, double t, const pg_state *state);  /* fills force0 */
 /* a -= M^-1 G' f of the contact forces f in the equations at the end of the step, as A does not contain
  * contact. */

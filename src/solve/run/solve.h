@@ -39,7 +39,7 @@ typedef struct { double *x, *y; int n, next, fresh; } pg_guess;
 
 /* An earlier iterate serves for comparison if its residual is about this many times that of the last one. */
 enum { ROUGHER = 10 };
-/* A kept iterate of such a solve: its residual over the first one, its correction delta (nred), the
+/* A kept iterate of an inexact solve: its residual over the first one, its correction delta (nred), the
  * utilisation u of the bonds of candidate list number `list` by it (0: none yet). */
 typedef struct { double residual, *delta, *u; size_t room; long list; } pg_rough_view;
 enum { ROUGH_VIEWS = 8 };
@@ -70,7 +70,7 @@ typedef struct {
     double breaking, bonds;  /* s spent on correcting factors for broken bonds; number of these bonds */
     double fresh;                                      /* bonds that broke since the last solve */
     double spent;                                      /* cost of the corrections when last looked at, s */
-    /* systems solved by conjugate gradients with finite elements as preconditioner, in place of a factor */
+    /* number of solves with finite elements as preconditioner, in place of a factor */
     long   solves;
 } pg_ways;
 
@@ -112,7 +112,7 @@ typedef struct {
     struct inverse *following;
 } system_updates;
 
-/* Conjugate gradients: their preconditioners and what they begin with. */
+/* Conjugate gradients: preconditioners, workspaces, first guesses. */
 typedef struct {
     pg_multilevel *multilevel;                         /* multilevel preconditioner; NULL: none (yet) */
     /* preconditioner by finite elements; NULL: not used, or not made yet */
@@ -124,7 +124,7 @@ typedef struct {
     unsigned char *hanging;                            /* nodes that springs hold in iterations (n) */
     double   *whole;  /* x of a product K x, ghosts included (ndof), where ranks share the body; else NULL */
     double    made[2];                                 /* k and m for which the preconditioner was made */
-    pg_operator  inertia; pg_couplings stiffness;      /* of ranks in motion: its matrix, rows of K */
+    pg_operator  inertia; pg_couplings stiffness;      /* ranks, dynamics: k K + m M; rows of K */
     pg_cg_room cg_room;  /* workspace of conjugate gradients, kept between solves */
     int      *own_row;  /* with elements only: the full unknown of each reduced one (nred) */
     unsigned char *fixed;  /* 1: constraints eliminate this unknown (ndof); NULL: not found yet */
@@ -355,7 +355,7 @@ typedef struct break_loop {
     pg_changes changes;                                /* bonds that broke in the last round */
     pg_changes over;                                   /* bonds at or near their limit when last judged */
     pg_broken *broken; size_t nbroken, cap_broken;     /* bonds that broke in this step */
-    long       round;  /* break rounds of the step at hand; > 0 between steps: it was stopped in its middle */
+    long       round;  /* break rounds of the step at hand; > 0 between calls: the step was stopped in its middle */
     long       began;                                  /* round at which this call began */
     /* function of the caller that is called between rounds; stopped 1: it ended the step */
     pg_watch   watch; void *watching; int stopped;
@@ -449,7 +449,7 @@ pg_status options_blame (pg_status status, const pg_solver_options *o, const cha
 /* Why a stage ends. */
 enum { STAGE_GOES_ON, STAGE_LOADS, STAGE_GAUGE, STAGE_FORCE, STAGE_EVENTS, STAGE_GROWTH, STAGE_RUN };
 typedef struct {
-    long   number;                                     /* of the stage at hand, from 1; 0: the run has none */
+    long   number;                                     /* number of the present stage, from 1; 0: no stages */
     int    over;                                       /* STAGE_...: why the stage ends with this step */
     long   first_step, first_event;                    /* step and event at which the stage began */
     double first_growth;                               /* stage_growth at its start, m (3D: m^2) */

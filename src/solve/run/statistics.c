@@ -44,7 +44,7 @@ void pg_statistics_warn_once (pg_statistics *report, const char *format, ...)
     pg_statistics_warn (report, "%s", text);
 }
 
-/* Notes what was spared and why; a reason told again replaces its note: counts grow while a run goes on. */
+/* Records work that was skipped and why; the same reason again replaces its record, as counts grow. */
 void pg_statistics_skip (pg_statistics *report, double seconds, const char *what, const char *why)
 {
     size_t k = 0;

@@ -25,7 +25,7 @@ typedef struct {
     const pg_system *s;
     body_parts parts;
     double *work;                                      /* of each free motion, N (MOST a part) */
-    double *size, *spin, all;                          /* of each part; of the body */
+    double *size, *spin, all;                          /* N, of each part; all: of the body */
 } along_motions;
 enum { MOST = 6 };
 

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Seconds of an iteration with finite elements, for each bond and each node: bodies in space, shape functions
+/* Seconds of an iteration with finite elements, for each bond and each node: 3D bodies, shape functions
  * of which many are alike, one thread. Measured like the other rates of this file in data/cui_plate. */
 static const double bond_rate = 1.3e-9, node_rate = 7e-7;
 /* Assumed iterations of a solve before the first one; cost of a set-up, in iterations. */
