@@ -24,13 +24,13 @@ typedef struct {
     int       turns;                                   /* 1: rotational unknowns have a stiffness */
     const pg_operator *op;
     pg_operator product;  /* K x by the matrix that was factored, which is cheaper than `op` of the force */
-    patch_factor *factor;                              /* NULL: by conjugate gradients */
+    patch_factor *factor;                              /* factor of K; NULL: conjugate gradients */
     double    middle[3], size;  /* of the body, m: centre of volume; root mean square distance */
     /* P: tractions of a state, N; inverse: 1 / diagonal of K, 0: held */
     double   *P, *x, *r, *z, *q, *inverse, *u;
     double    A[STATES * STATES];  /* x K y for all pairs of fields x, y of unit strain */
     size_t    limit;
-    int       supported;                               /* supports on points hold the body */
+    int       supported;                               /* 1: supports on points hold the body */
     int       rows;  /* 1: loads and supports act on the outermost rows of points */
     pg_patch  out;
 } probe;

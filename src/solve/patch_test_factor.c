@@ -35,7 +35,7 @@ static int has_matrix (const pg_problem *p, const pg_force_type *force, void *se
 {
     if (p->dim < 2 || pg_problem_unknowns (p) != p->dim || !p->equilibria || p->plain) return 0;
     if (p->cloud.regular && p->cloud.n > MOST_ON_LATTICE) return 0;    /* products cost little */
-    pg_solve_counts c = pg_solve_count (p);            /* has the run no factor either? */
+    pg_solve_counts c = pg_solve_count (p);            /* will the run have no factor either (3D)? */
     if (p->dim > 2 && (!p->method->shape_functions || pg_solve_by_elements (&c, 1, 0, 0))) return 0;
     return !(force->basis && force->basis (self)) && pg_force_matrix (force, self);
 }
@@ -78,7 +78,7 @@ static pg_status hold (pg_sparse *K, const pg_cloud *c)
             for (size_t k = 0; k < m; k++) square += R[6 * i + k] * R[6 * i + k];
             if (square > most) most = square, best = i;
         }
-        if (!(most > 1e-12)) break;                    /* points in a line */
+        if (!(most > 1e-12)) break;                    /* all motions held, or points in a line */
         K->value[K->start[best + 1] - 1] *= 2;
         memcpy (row, R + 6 * best, sizeof row);
         for (size_t i = 0; i < n; i++) {

@@ -476,7 +476,7 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
     }
 }
 
-/* Statistics at any time, with numbers that need an examination of the state: isolated points, parts, overlap of
+/* Statistics at any time, with numbers that are found from the state: isolated points, parts, overlap of
  * crack faces. */
 const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {

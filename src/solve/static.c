@@ -18,7 +18,7 @@ static pg_status static_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
     PG_TRY (contact_settle_tips (&s->break_loop.system, state));
-    if (s->stage.now.number) PG_TRY (stage_remove (s, state));         /* in the first stage */
+    if (s->stage.now.number) PG_TRY (stage_remove (s, state));         /* what the first stage removes */
     if (s->options.event) PG_TRY (event_start (s, state));
 done:
     return status;

@@ -60,7 +60,7 @@ done:
     return status;
 }
 
-/* Adds the work by trapezoids: the work between two states is the mean force times the change of displacement, pair by
+/* Adds work by trapezoids: between two states it is the mean force times the change of displacement, pair by
  * pair. The balance at hand becomes the last one. */
 pg_status break_loop_book (break_loop *b, double scale)
 {

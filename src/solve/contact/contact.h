@@ -77,10 +77,10 @@ typedef struct {
 typedef struct {
     int       said_blind;  /* a warning of points with too few neighbours was given */
     int       waits;                                   /* cracks have grown since the pieces were made */
-    int       active;                                  /* some contact force is not zero */
+    int       active;                                  /* 1: some contact force is not zero */
     int       began;  /* pieces have been made before: cracks without pieces are new */
     int       touched;                                 /* the last equilibrium needed the compliance */
-    int       history;                                 /* slips go on from step to step */
+    int       history;                                 /* 1: slips are remembered from step to step */
     int       moves;                                   /* the last state solved for is a dynamic one */
 } contact_flags;
 /* Displacements and gaps due to unit forces between faces. */

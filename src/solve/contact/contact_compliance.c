@@ -98,7 +98,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     if (!c->compliance.Z) PG_ALLOC (c->compliance.Z, s->ndof * n);
     PG_ALLOC (rhs, s->nred * n);
     PG_ALLOC (solved, s->nred * n);
-    if (dyn) {                                         /* iterations would carry it along */
+    if (dyn) {                                         /* iterations would change the residual */
         PG_ALLOC (kept, s->ndof);
         memcpy (kept, b->residual, s->ndof * sizeof *kept);
     }

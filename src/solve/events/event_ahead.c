@@ -68,7 +68,8 @@ static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes 
     pg_system *sys = &s->break_loop.system;
     long updates = s->report.linear.updates, kept = sys->choice.kept;
     pg_status status = system_refresh (sys, state, changes);
-    s->report.linear.updates = updates, sys->choice.kept = kept;         /* a trial does not count as an update of the run */
+    /* a trial does not count as an update */
+    s->report.linear.updates = updates, sys->choice.kept = kept;
     return status;
 }
 
@@ -430,7 +431,7 @@ done:
     return status;
 }
 
-/* Keeps all of this, as the next looks ahead depend on how far this one came: a run that is read back finds
+/* Keeps the queue, as the next looks ahead depend on how far this one came: a run that is read back finds
  * its events in the same blocks, to the same bits. */
 pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
 {

@@ -21,7 +21,7 @@ enum { EVENT_CASES = 2, EVENT_MOST = 64 };             /* most load cases; most 
 
 /* A load case; vectors of touched unknowns have length event_solver.room. */
 typedef struct {
-    double  time;                                      /* its load factor */
+    double  time;                                      /* load factor of the case */
     double *base, *constant;                           /* u_b; residual of u = 0 at the base, N (ndof) */
     double *x, *p;                                     /* force numbers x and p of the head of this file, N */
     double *q;  /* part of the residual that a correction of the base leaves, N: added to p */
@@ -38,7 +38,7 @@ typedef struct event_solver {
     double  *r;                                        /* workspace (room) */
     double   scale;                                    /* reference force at the base, N */
     double   residual;                                 /* residual of the last update over scale */
-    int      count;                                    /* events of the block */
+    int      count;                                    /* number of events of the block */
     size_t   tX[EVENT_MOST + 1];                       /* number of touched unknowns at each event */
     /* watched nodes; their rows of G (node by node, components x t), the first `filled` columns of which are
      * made */
@@ -94,5 +94,5 @@ pg_status event_solver_back   (event_solver *e, int k, inverse_outcome *outcome)
 
 /* ---- for checkpoints ----------------------------------------------------------------------------------- */
 pg_status event_solver_keep   (event_solver *e, const pg_keeper *k);
-pg_status event_solver_restore (event_solver *e);      /* like inverse_restore */
+pg_status event_solver_restore (event_solver *e);  /* makes again what is not kept, as inverse_restore does */
 #endif

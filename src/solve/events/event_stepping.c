@@ -556,7 +556,7 @@ done:
     return status;
 }
 
-/* Keeps these numbers, and the displacements at load factor 1 (and 0). */
+/* Checkpoint of event stepping: its ends, and the displacements at load factor 1 (and 0). */
 pg_status event_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -18,7 +18,7 @@ typedef struct {                                       /* state of `static` with
     double    engine_residual;                         /* residual of the base of `engine` */
     int       lost;  /* a step was refused: `unit` and `base` are first guesses only */
     pg_status ended;                                   /* no step can follow: the next one fails with this */
-    char      why[1024];                               /* message of that failure */
+    char      why[1024];                               /* message of the failure `ended` */
     int       balance_fresh;                           /* 1: work_balance is that of `unit` */
     double    secant0;                                 /* first work per squared load factor, J */
     double    secant, top_factor;  /* work per squared load factor over secant0; largest load factor */
@@ -50,7 +50,7 @@ int       ahead_waits  (const struct event_ahead *q);
 double    ahead_factor (const struct event_ahead *q, double *top);
 pg_status ahead_kill   (pg_solver *s, pg_state *state);
 pg_status ahead_take   (pg_solver *s);
-void      ahead_forget (struct event_ahead *q);        /* called if bonds broke otherwise */
+void      ahead_forget (struct event_ahead *q);        /* drops waiting events: bonds broke otherwise */
 void      ahead_refused (struct event_ahead *q);  /* called if a step is refused: no event waits any more */
 void      ahead_tell   (pg_solver *s);                 /* reports at the end of the run */
 pg_status ahead_keep   (pg_solver *s, const pg_keeper *k);
@@ -83,7 +83,8 @@ pg_status affine_account (pg_solver *s, pg_state *state, double end);
  * factor of the next growth (INFINITY: none). */
 pg_status event_measure (pg_solver *s, const pg_state *state);
 pg_status event_next_growth (pg_solver *s, const pg_state *state, double *next);
-void      event_displacement (const pg_solver *s, double factor, double *d);         /* d at a load factor */
+/* d = displacement at a load factor */
+void      event_displacement (const pg_solver *s, double factor, double *d);
 /* Sets unit and base, before equilibria are solved anew, from the state. */
 void      event_equilibrium_lost (pg_solver *s, const pg_state *state);
 /* Finds displacement, work balance and reactions of the static state at this factor again; may end the
@@ -98,5 +99,6 @@ pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, doub
  * equilibrium. Work and stored energy are those before the event; the stored energy counts as dissipated. cut
  * 1: the solve has found no equilibrium, and the body is cut in two. Returns 1 if it has come apart. */
 int       event_apart  (pg_solver *s, int cut, double work, double strain, pg_step *step);
-void      event_limit  (pg_solver *s, const pg_state *state, double factor);  /* ends at solver.max_events */
+/* ends the run at solver.max_events */
+void      event_limit  (pg_solver *s, const pg_state *state, double factor);
 #endif

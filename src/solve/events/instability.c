@@ -349,7 +349,7 @@ pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_st
     double factor = state->factor;
     int arrived;
     PG_TRY (newmark_advance (&u->scheme, b, s->backup, state, factor, step));
-    int broke = system_most (&b->system, (double) step->nbroken) > 0;  /* on any rank */
+    int broke = system_most (&b->system, (double) step->nbroken) > 0;  /* 1: bonds broke on some rank */
     balance_energy (s, u, state, broke, step);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     if (b->work_balance.reaction)

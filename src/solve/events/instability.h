@@ -12,7 +12,7 @@ typedef struct {                                       /* a part of the state of
     long     count, settling;  /* instabilities so far; steps since this motion began to be damped away */
     double   time, last_break;  /* time of the motion, and of the last break in it, s */
     double   needed, dissipated;  /* energy that facets in dynamics took; that they dissipated, J */
-    double   dt, quiet, longest;                       /* s; as in the options, completed */
+    double   dt, quiet, longest;                       /* times of the options, completed, s */
     int      mode[2];  /* SYSTEM_...: how K (0) and K with the mass (1) were last solved */
     double  *before, *rest;  /* displacement before the event at hand; static one after it (ndof) */
     double  *reaction;                                 /* the last ones in the motion, N (nload x 3) */
@@ -21,7 +21,7 @@ typedef struct {                                       /* a part of the state of
 /* Reads solver.on_instability and solver.motion of the scene, after solver.stepping. */
 void      instability_read  (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
 extern const pg_key_table instability_keys;
-/* Prepares it after the first refresh. */
+/* Prepares the treatment of instabilities, after the first refresh. */
 pg_status instability_start (pg_solver *s, instability *u);
 void      instability_free  (instability *u);
 pg_status instability_keep  (pg_solver *s, instability *u, const pg_keeper *k);
@@ -38,7 +38,7 @@ void      instability_before (const pg_solver *s, instability *u, const pg_state
 pg_status instability_after (pg_solver *s, instability *u, pg_state *state, double factor, pg_status solved,
                              int *moves);
 int       instability_moves (const instability *u);
-/* Makes a time step of the motion. */
+/* Makes a time step of the motion that an instability has begun. */
 pg_status instability_step  (pg_solver *s, instability *u, pg_state *state, pg_step *step);
 /* Inertia and damping of the present motion, with its k K + m M; NULL in statics. */
 const dynamics *instability_dynamics (instability *u);

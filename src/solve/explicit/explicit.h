@@ -30,7 +30,7 @@ typedef struct {
     /* sum of m v_n v(n+1/2) where the last step was closed; the same at the start of the step */
     double  resist, resist0;
     struct relaxation *relaxation;                         /* relaxation.h; NULL: dynamics */
-    struct explicit_contact *contact;                  /* short-range; NULL: none */
+    struct explicit_contact *contact;                  /* short-range contact and platens; NULL: none */
 } motion;
 static inline motion *motion_of (const pg_solver *s) { return s->own; }
 enum { LANES = 8 };                                   /* unknowns processed at once (a constant) */
@@ -39,7 +39,7 @@ enum { LANES = 8 };                                   /* unknowns processed at o
 enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUM_FAST, SUMS };
 
 /* ---- explicit.c ---------------------------------------------------------------------------------------- */
-pg_status explicit_create  (pg_solver *s);             /* supports, masses, work space */
+pg_status explicit_create  (pg_solver *s);             /* finds supports and masses, allocates */
 void      explicit_free    (pg_solver *s);
 /* Sets v of prescribed unknowns to 0, so that the loops over all unknowns leave them out. */
 void      explicit_release (pg_solver *s, pg_state *state);
@@ -49,7 +49,7 @@ pg_status explicit_follow  (pg_solver *s, double before, double now, double next
 /* Finds system.residual at (d, t); breaks bonds over their limit first unless `breaking` is 0. *reference may
  * be NULL. */
 pg_status explicit_force   (pg_solver *s, pg_state *state, double t, int breaking, double *reference);
-/* grows broke to that many entries, new ones 0 */
+/* makes `broke` at least that long; new entries are 0 */
 pg_status explicit_room    (motion *m, size_t steps);
 /* sum = total of the sums of all blocks, in order */
 void      explicit_total   (const pg_solver *s, double *sum);
@@ -65,7 +65,7 @@ pg_status explicit_moved   (pg_solver *s, pg_state *state, const pg_moved *moved
 
 /* ---- explicit_contact.c: short range, and platens ------------------------------------------------------ */
 struct explicit_contact {
-    pg_short_range *pairs;                             /* NULL: platens alone */
+    pg_short_range *pairs;                             /* pairs of points; NULL: platens alone */
     /* Where unknowns are not displacements (pg_force_type.at_nodes): displacements and velocities of the
      * points, forces of pairs on the points, and these as forces on the unknowns (ndof each); else NULL. */
     double *moved, *speed, *pressed, *taken;
@@ -88,7 +88,7 @@ double    explicit_contact_rate   (const pg_solver *s);
  * has led to this state. */
 pg_status explicit_contact_add    (pg_solver *s, pg_state *state, double t, int first);
 double    explicit_contact_kinetic (const pg_solver *s);               /* kinetic energy of platens, J */
-int       explicit_contact_active (const pg_solver *s);                /* 1: some force is not zero */
+int       explicit_contact_active (const pg_solver *s);                /* 1: some contact force is not zero */
 void      explicit_contact_forces (const pg_solver *s, double *out);   /* out += contact forces, N (ndof) */
 void      explicit_contact_show   (pg_solver *s);
 pg_status explicit_contact_save   (pg_solver *s);
@@ -110,8 +110,8 @@ double    explicit_bound   (const pg_solver *s, const char **from);    /* the st
 typedef struct {
     double *d, *v, *a;
     double *f, *inverse, *mass, *P;                    /* read only; P may be NULL */
-    double only;                                       /* as motion.only */
-    double dt, damping;                                /* s, 1/s */
+    double only;                                       /* 1 / mass if equal everywhere; else 0 */
+    double dt, damping;                                /* time step, s; damping, 1/s */
     int    closing, opening;
 } half_kicks;
 typedef void (*kick_range) (const half_kicks *w, size_t first, size_t last, double *sum);

@@ -84,7 +84,7 @@ done:
     return status;
 }
 
-/* Settles the time step and the number of steps before the run begins, so that a plan of the run can show them. */
+/* Sets the time step and the number of steps before the run begins, so that a plan can show them. */
 pg_status explicit_prepare (pg_solver *s)
 {
     pg_status status = PG_OK;

@@ -518,7 +518,7 @@ static pg_status keep_numbers (struct relaxation *x, const char *name, const pg_
         PG_KEPT (x->heavy), PG_KEPT (x->floor)));
 }
 
-/* Keeps these numbers, and how far the stage is. */
+/* Checkpoint of relaxation: damping, imbalance, and how far the stage is. */
 pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

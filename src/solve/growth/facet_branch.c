@@ -31,7 +31,7 @@ int facet_branches (const break_loop *b, const pg_state *state, size_t i)
     int slides;
     if (!b->system.options->branching || c->type->path (c, &n) || isnan (f->near)) return 0;
     facet_judge (b, state, i, 1, NULL, &slides);
-    if (f->closed || slides) return 0;                 /* branches only open */
+    if (f->closed || slides) return 0;                 /* closed or sliding tips do not branch */
     /* a ring that ends at a kink, and the path, may be as many facets long: lengths that differ by rounding
      * only */
     double equal = pg_cloud_same (&b->system.problem->cloud);

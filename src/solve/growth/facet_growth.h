@@ -41,7 +41,7 @@ typedef struct {
 } facet_hold;
 /* A crack tip in dynamics. */
 typedef struct {
-    double speed;                                      /* m/s */
+    double speed;                                      /* speed of the tip, m/s */
     double g, mean, steady;  /* g = 1 - v / c_R; its means over a recent and over a longer time */
     double way, length;  /* path along the last facet; length of that, 0: it has none, m */
     double least;                                      /* lower bound of its speed along that facet, m/s */
@@ -86,7 +86,7 @@ typedef struct facet_growth {
     /* Last measurement, valid if `fresh`: nfield 1: load factor times one field; 2: a constant field and load
      * factor times another. */
     int     fresh, nfield;
-    double *ramp;                                      /* the second field (ndof) */
+    double *ramp;                                      /* the second displacement field (ndof) */
     double *before;                                    /* displacement before the event at hand (ndof) */
     /* of every tip of the state, or of the vertices of its open fronts, front by front; near NAN: not judged,
      * as it is closed or has no room for a ring */
@@ -152,7 +152,7 @@ void      facet_tell_lost (break_loop *b, const pg_state *state);
 /* 1: the run ends after an event at this load: some tip cannot be judged, and nothing else grows up to full
  * load. */
 int       facet_measure_ends (pg_solver *s, const pg_state *state, double factor);
-void      facet_note_end    (pg_statistics *report);   /* warns of that end */
+void      facet_note_end    (pg_statistics *report);   /* warns of that end of the run */
 
 /* ---- facet_energy.c ------------------------------------------------------------------------------------ */
 /* After a step that ended at t: warns once where facets in dynamics have not taken .9 to 1.1 of the fracture
@@ -186,7 +186,7 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *keeper);
 /* Energy that tip i takes over what its rings predict; 1: it does not move, or nothing is known yet. */
 double    facet_trust     (const facet_growth *g, size_t i);
 double    facet_zone      (const break_loop *b);  /* path of a tip in which a facet opens, in facets */
-pg_status facet_make_room (facet_growth *g, size_t ntip);              /* runs of so many tips */
+pg_status facet_make_room (facet_growth *g, size_t ntip);              /* allocates data of so many tips */
 
 /* ---- facet_branch.c ------------------------------------------------------------------------------------ */
 /* 1: tip i, at the end of its facet, has the energy for two branches. */
@@ -199,7 +199,7 @@ pg_status facet_fork    (break_loop *b, pg_state *state, size_t i, double t, con
  * on transmitting, N (all 2 n). n = 0 without contact. */
 typedef struct { size_t n; double *x, *normal, *force; } facet_faces;
 void      facet_faces_clear  (facet_faces *faces);
-/* Finds these from the stress at displacement d, before the cut. */
+/* Fills facet_faces from the stress at displacement d, before the cut. */
 pg_status facet_faces_before (const break_loop *b, const pg_state *state, const double *d, const double *from,
                               const double *to, facet_faces *out);
 /* nodal = forces that contact goes on transmitting, on the nodes, N (ndof); after the cut, caches of the
@@ -265,7 +265,7 @@ pg_status trial_facets (break_loop *b, const pg_state *state, const double *cons
  * there is one. */
 pg_status trial_hot_place (break_loop *b, const pg_state *state, const double *d, double t, double *x,
                            int *any);
-pg_status facet_offer  (facet_growth *g, const facet_candidate *c);                    /* facet_growth.c */
+pg_status facet_offer  (facet_growth *g, const facet_candidate *c);  /* adds c to g->trial */
 /* Square root of the energy released over that taken, of a new crack at most its stress over strength. */
 double    facet_trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor);
 #endif

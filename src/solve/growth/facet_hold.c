@@ -30,7 +30,7 @@ static double left (const facet_hold *h) { return left_at (h, h->way); }
  * left ds / l. */
 static double taken_at (const facet_hold *h, double way) { return 1 - left_at (h, way) * left_at (h, way); }
 
-/* f . d, J. */
+/* Work product f . d of the held forces, J. */
 static double product (const facet_hold *h, const double *d)
 {
     double sum = 0;
@@ -113,7 +113,7 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, const face
     h.n = 0;
     for (size_t i = 0; i < s->ndof; i++)
         if (fabs (after[i]) > 1e-15 * most) h.unknown[h.n] = (long) i, h.force[h.n++] = after[i];
-    h.product = product (&h, d), h.drop -= 0.5 * h.product;        /* of all forces that have changed */
+    h.product = product (&h, d), h.drop -= 0.5 * h.product;  /* the work of all forces that have changed */
     PG_GROW (g->motion.hold, g->motion.cap_hold, g->motion.nhold + 1);
     g->motion.hold[g->motion.nhold++] = h;
     h.unknown = NULL, h.force = NULL;

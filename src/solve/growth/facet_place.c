@@ -6,7 +6,7 @@
 #include "facet_growth.h"
 #include <math.h>
 
-static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
+static const double to_surface = 1.5, to_crack = 0.6;  /* reach of the surface, of a crack, spacings */
 
 /* 1: another crack is within `reach` of x; place: its nearest point. */
 static int meets (const pg_crack_paths *paths, size_t tip, const double *x, double reach, double *place)

@@ -24,7 +24,7 @@ typedef struct front_growth {
     size_t n, *first, nfront, cap_first;
     unsigned char *blind;                              /* per front: no vertex has room for a tube */
     size_t cap_blind;
-    front_vertex *vertex; size_t cap_vertex;           /* values of the last plan (n) */
+    front_vertex *vertex; size_t cap_vertex;           /* vertices as of the last plan (n) */
     double *d, *theta, *row; size_t cap_d, cap_theta, cap_row;         /* workspaces */
     /* front_ways.c: influence of advances on each other (n x n), with lengths of front; workspaces */
     double *couple, *factor, *forward, *line; size_t cap_couple, cap_factor, cap_forward, cap_line;

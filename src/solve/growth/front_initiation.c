@@ -19,8 +19,8 @@ enum { RADII = 3, RIM = 24, RINGS = 3, SPOTS = 2, SIDES = 24, ROUNDS = 2, STEPS 
 
 /* A trial disc: a new crack in 3D. */
 typedef struct {
-    double centre[3], normal[3], across[2][3];         /* centre, m; unit vectors, the last two in the plane */
-    double h, modulus, strength, energy;               /* m; E', Pa; Pa; J/m^2 */
+    double centre[3], normal[3], across[2][3];         /* centre, m; others: unit, last two in plane */
+    double h, modulus, strength, energy;               /* spacing, m; E', Pa; Pa; J/m^2 */
     double factor, radius;                             /* load factor at which it forms; m */
     trial_sizes sizes;                                 /* energy that discs of several radii release */
 } disc;
@@ -396,7 +396,7 @@ pg_status fronts_offer_starts (break_loop *b, const search *all)
     search g = *all;
     disc spot[SPOTS];
     size_t n;
-    g.best = fmin (g.best, 1);                         /* none beyond full load */
+    g.best = fmin (g.best, 1);                         /* no crack is sought beyond full load */
     PG_TRY (find_spots (&g, spot, &n));
     for (size_t k = 0; k < n; k++) {
         PG_TRY (estimate (&g, &spot[k]));

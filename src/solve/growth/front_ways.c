@@ -25,7 +25,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double power = 8;                         /* p */
+static const double power = 8;                         /* p of the head of this file */
 
 /* Sets the width of each vertex: half of the distances to both neighbours. */
 static void set_widths (const pg_front *front, front_vertex *v)

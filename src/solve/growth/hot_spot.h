@@ -9,8 +9,8 @@ typedef struct { double constant[3], slope[3]; } affine_stress;
 
 /* A point where a crack may begin. */
 typedef struct {
-    double x[3];                                       /* m */
-    affine_stress stress;                              /* average there */
+    double x[3];                                       /* position, m */
+    affine_stress stress;                              /* average stress there, Pa */
     double factor;                                     /* load factor at which the strength is reached */
     /* crack across the largest tension: angle, rad from x; one that slides: half way between the two planes
      * on which the strength in shear is reached together */

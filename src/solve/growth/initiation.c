@@ -37,10 +37,10 @@ static const double doubt = 1.25;
 
 /* A trial crack from origin - a direction to origin + b direction; a = 0 if it begins in the surface. */
 typedef struct {
-    double origin[3], direction[3], angle;             /* m, unit vector, rad */
+    double origin[3], direction[3], angle;             /* origin, m; unit vector; angle, rad */
     double reach[2];  /* length inside the body towards -direction, +direction, m */
     int    edge;
-    double h, modulus;                                 /* m, Pa */
+    double h, modulus;                                 /* local spacing, m; Young's modulus, Pa */
     const pg_interface *interface;                     /* interface along which it runs, or NULL */
     shear_start shear;                                 /* sense != 0: it slides under pressure */
     double least;                                      /* shortest length that is tried, m */

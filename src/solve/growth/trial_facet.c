@@ -163,7 +163,7 @@ static pg_status offer_of_tip (break_loop *b, trials *w, const pg_state *state, 
     pg_changes cut = { 0 };
     trial_form form;
     double polynomial[3];
-    if (!(c->energy > 0)) return PG_OK;                /* none can grow there */
+    if (!(c->energy > 0)) return PG_OK;                /* no facet can grow there */
     if (!w->state) PG_TRY (pg_state_create (&w->state, p, b->system.components));
     PG_TRY (pg_state_copy (w->state, state));
     PG_TRY (pg_crack_grow (w->state, p, (size_t) c->tip, c->to, c->close, &cut));

@@ -28,7 +28,7 @@ typedef struct trials {
     pg_nearest *points;  /* evaluation points by position, with several materials */
     int        never_columns;                          /* for tests: 1: solve without Green columns */
 } trials;
-pg_status trials_create (trials **out, pg_system *system);             /* the system is borrowed */
+pg_status trials_create (trials **out, pg_system *system);             /* keeps a pointer to system */
 void      trials_free (trials **w);
 /* Finds the energy that n stages of a cut release at fixed loads, J, as forms of the fields: stage k cuts the
  * bonds of the stages before it and those of cut[k], which are intact in `state` and listed once. State and
@@ -77,10 +77,10 @@ double    trial_stress_factor (const double v[2]);
 
 /* A new crack: where it would begin, and when. */
 typedef struct {
-    double from[3], to[3];                             /* m */
-    int    open;                                       /* pg_crack_start */
+    double from[3], to[3];                             /* ends of the crack, m */
+    int    open;                                       /* its open ends, as in pg_crack_start */
     int    slides;                                     /* 1: it slides in shear, its faces touch */
-    double length;                                     /* inside the body, m */
+    double length;                                     /* length inside the body, m */
     double factor;                                     /* load factor at which it comes into being */
     double energy;                                     /* energy that it takes, J */
     double release[3];  /* energy that it releases, a polynomial of lambda, J */

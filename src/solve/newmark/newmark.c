@@ -84,7 +84,7 @@ static int join_damping (void *context, const double *d, double *x)
     if (!n->joined) return 0;
     rates (m, d, n->work1, n->work3);
     for (size_t i = 0; i < n->system->ndof; i++) x[i] = d[i] + ck * n->work1[i];
-    if (system_exchange (n->system, x) != PG_OK) x[0] = NAN;           /* the residual reports it */
+    if (system_exchange (n->system, x) != PG_OK) x[0] = NAN;  /* not finite: the residual reports it */
     return 1;
 }
 
@@ -132,8 +132,8 @@ static void add_resistance (void *context, const double *d, double *residual)
     for (size_t i = 0; i < n->system->ndof; i++) residual[i] -= Ma[i];
 }
 
-/* x -= what the equations leave at the end of the step. With r = P - F - C v the equations are (1 + alpha) r - alpha r_t - M a = 0: r - M a, alpha (r_t - M a) /
- * (1 + alpha), is left at the end of the step. */
+/* x -= what the equations leave at the end of the step: with r = P - F - C v they are (1 + alpha) r - alpha
+ * r_t - M a = 0, so that r - M a = alpha (r_t - M a) / (1 + alpha) is left. */
 static void add_weights (void *context, const double *d, double *x)
 {
     const course *m = context;

@@ -78,7 +78,7 @@ typedef struct {
 typedef struct {
     const pg_linear_type *linear;
     void     *factor;
-    int       stale;                                   /* 1: K has changed since */
+    int       stale;                                   /* 1: K has changed since it was factored */
     unsigned long revision;  /* version of K, as the force counts it, at the last refresh */
     /* Matrix to be factored, until the factor is made: K itself, its pattern with the values `copy`, or
      * (owned 1) K reduced by constraints. own_diagonal: that of K while that of A stands in its place, else
@@ -161,9 +161,9 @@ typedef struct {
 
 /* How linear systems are solved, and what that has cost. */
 typedef struct {
-    int       mode;                                    /* SYSTEM_... */
+    int       mode;                                    /* method of solving, SYSTEM_... */
     long      spared;                                  /* solves by the factor of an earlier K */
-    long      kept;                                    /* refreshes that left K as it was */
+    long      kept;                                    /* number of refreshes that left K as it was */
     /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
     double    extra_cost;
     double    columns;  /* right-hand sides that every new K is solved with beside the loads */
@@ -196,7 +196,7 @@ typedef struct pg_system {
     pg_statistics           *report;
     int       components;
     size_t    ndof, nred;
-    double   *mass;                                    /* lumped, per unknown, kg */
+    double   *mass;                                    /* lumped mass per unknown, kg (ndof) */
     const pg_sparse *M;                                /* consistent mass matrix, or NULL */
     system_balance    balance;
     system_factor     direct;
@@ -217,8 +217,8 @@ double    system_norm      (const pg_system *s, const double *force, size_t n);
 double    system_norm_owned (const pg_system *s, const double *weight, const double *d);
 void      system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y);
 pg_status system_make_shared  (pg_system *s, double k, double m);      /* preconditioner of k K + m M */
-int       system_by_ranks     (const pg_system *s);                    /* 1: it is one that ranks share */
-pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* unknowns without stiffness */
+int       system_by_ranks     (const pg_system *s);  /* 1: the preconditioner is one of ranks */
+pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* finds unknowns without stiffness */
 void      system_clear_rest   (const pg_system *s, double *z);         /* z = 0 at ghosts and bare unknowns */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);
 void      system_free_shared  (pg_system *s);
@@ -226,7 +226,7 @@ void      system_free_shared  (pg_system *s);
 pg_status system_make_shared_factor  (pg_system *s, int *made);
 pg_status system_apply_shared_factor (const pg_system *s, const double *r, double *z);
 void      system_free_shared_factor  (pg_system *s);
-int       system_has_matrix (const pg_system *s);       /* the force offers K itself */
+int       system_has_matrix (const pg_system *s);       /* 1: the force offers K itself */
 pg_status system_create  (pg_system *s);               /* the caller has set the fields up to `report` */
 void      system_free    (pg_system *s);
 pg_status system_factorize (pg_system *s, const dynamics *dyn);  /* factors k K + m M of the last refresh */
@@ -355,13 +355,14 @@ typedef struct break_loop {
     pg_changes changes;                                /* bonds that broke in the last round */
     pg_changes over;                                   /* bonds at or near their limit when last judged */
     pg_broken *broken; size_t nbroken, cap_broken;     /* bonds that broke in this step */
-    long       round;  /* break rounds of the step at hand; > 0 between calls: the step was stopped in its middle */
+    /* break rounds of the step at hand; > 0 between calls: the step was stopped in its middle */
+    long       round;
     long       began;                                  /* round at which this call began */
     /* function of the caller that is called between rounds; stopped 1: it ended the step */
     pg_watch   watch; void *watching; int stopped;
     double     work0, stored0;                         /* work, energy at the start of the step, J */
     pg_work_balance  work_balance, before;  /* of the present state; of the one accounted last */
-    double     work;                                   /* external work, J */
+    double     work;                                   /* external work so far, J */
     /* values at the start of the step (energies: J), restored if it is refused; saved 1: they are at hand */
     pg_work_balance  start; double strain0, kinetic0; int saved;
     double    *damage;                                 /* damage of points, for stop.set (6 n) */
@@ -466,7 +467,7 @@ typedef struct {
     double     *share;  /* of each stage: share of its loads at which it ended; 1 until it has */
     double     *opening;  /* gauge openings of all records, m (stages x gauges) */
     signed char *here;  /* of each gauge end: 1: this rank measures it; -1: not known */
-    pg_stage_record *record;                           /* per stage */
+    pg_stage_record *record;                           /* record of each stage */
 } stage_path;
 
 struct pg_solver {
@@ -497,7 +498,8 @@ pg_status solver_start  (pg_solver *s, pg_state *state);
 pg_status stages_create (pg_solver *s);
 void      stages_free   (pg_solver *s);
 pg_status stages_keep   (pg_solver *s, const pg_keeper *k);
-pg_status stages_moved  (pg_solver *s, const pg_moved *m, int within);  /* for stages that remove nothing */
+/* reads stages, which may remove nothing */
+pg_status stages_moved  (pg_solver *s, const pg_moved *m, int within);
 /* t at the start and at the end of the present stage (without stages 0 and 1); t of the next level. */
 double    stage_start   (const pg_solver *s);
 double    stage_end     (const pg_solver *s);

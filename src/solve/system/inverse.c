@@ -8,7 +8,7 @@
 /* Most touched unknowns for which the dense system pays; in a block that is used once. Most memory for Green
  * columns, bytes. */
 enum { MOST_TOUCHED = 2000, MOST_IN_BLOCK = 3000 };
-static const double most_memory = 1.5e9;               /* bytes of Green columns */
+static const double most_memory = 1.5e9;               /* most memory of Green columns, bytes */
 /* Cost of a column among several right-hand sides, over one solve; numbers read from memory in a second. */
 static const double column_share = 0.3, memory_rate = 1e9;
 

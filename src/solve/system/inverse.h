@@ -51,8 +51,8 @@ typedef struct {
     int    *at;  /* index + 1 of each full unknown, 0: not touched (ndof) */
     double *D;                                         /* change of K on the touched unknowns, N/m */
     double *stay;  /* added to D on the diagonal of the system: springs where nothing else holds, N/m */
-    double *H;                                         /* W' A^-1 W, m/N */
-    double *M, *factor;                                /* 1 + (D + stay) H; its LU factors */
+    double *H;                                         /* H = W' A^-1 W, m/N */
+    double *M, *factor;                                /* M = 1 + (D + stay) H; its LU factors */
     int    *pivot, factored;
     double  pivots;                                    /* least pivot over the largest entry of M */
     double *pack, *product;  size_t room_pack, room_product;       /* workspace for gathered blocks */
@@ -102,8 +102,8 @@ pg_status inverse_solve  (inverse *v, const double *r, double *x);
 
 /* ---- inverse_touched.c --------------------------------------------------------------------------------- */
 void      touched_free   (inverse *v);
-void      touched_clear  (inverse *v);                 /* t = 0 */
-pg_status touched_reserve (inverse *v, size_t count);  /* allocates for count more */
+void      touched_clear  (inverse *v);                 /* forgets all touched unknowns: t = 0 */
+pg_status touched_reserve (inverse *v, size_t count);  /* allocates for `count` more unknowns */
 /* Adds unknowns that are not yet touched: H and what depends on it grow. */
 pg_status inverse_grow   (inverse *v, size_t count, const size_t *dof);
 /* D += a change of K, on unknowns that are touched by this if they were not before. */

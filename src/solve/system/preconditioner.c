@@ -94,7 +94,7 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
     PG_ALLOC (it->fixed, s->ndof);
     if (s->force->spares.elements || system_is_shared (s)) PG_TRY (find_own_rows (s, T, can));
     else *can = selects (s, T);
-    if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* on all ranks or none */
+    if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* possible on all ranks or on none */
     it->precondition = *can;
 done:
     return status;

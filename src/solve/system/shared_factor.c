@@ -22,9 +22,9 @@ static const double lift = 1e-10;
 struct shared_factor {
     const pg_linear_type *type;
     void   *factor;
-    size_t  n;                                         /* unknowns of all ranks */
+    size_t  n;                                         /* number of unknowns of all ranks */
     size_t *place;                                     /* index of each point held, among all (points held) */
-    double *r, *z;                                     /* n */
+    double *r, *z;                                     /* workspaces (n) */
 };
 
 /* Numbers of an entry of the matrix in a message: row and column among all unknowns, value. */

@@ -54,7 +54,7 @@ pg_status system_create (pg_system *s)
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (b->residual, s->ndof);
     PG_ALLOC (b->full, s->ndof);
-    if (!(s->options->flags & PG_SOLVER_EXPLICIT)) {   /* what linear solves alone need */
+    if (!(s->options->flags & PG_SOLVER_EXPLICIT)) {   /* vectors that only linear solves need */
         PG_ALLOC (b->reduced, s->ndof);
         PG_ALLOC (b->delta, s->ndof);
         PG_ALLOC (b->best, s->ndof);
