@@ -35,7 +35,7 @@ void      event_zone_clear (event_zone *z);
 int       event_zone_inner (const event_zone *z, size_t k);
 
 enum { AHEAD_MOST = 32 };                              /* most events of a block */
-static const double ahead_most_of_body = 0.3;          /* bonds of a group over all: else it spares nothing */
+static const double ahead_most_of_body = 0.3;          /* most bonds of a group over all bonds */
 /* An event that was found: load factor, largest utilisation there, and its bonds, n from `first` on in
  * `broken`. */
 typedef struct { double factor, top; size_t first, n; } ahead_event;

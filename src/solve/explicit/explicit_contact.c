@@ -64,7 +64,7 @@ double explicit_contact_kinetic (const pg_solver *s)
     return c && c->platens ? pg_moving_platens_now (c->platens)->kinetic : 0;
 }
 
-/* Warns where more contacts on a point than surfaces of bodies have may make the step unstable. */
+/* Warns where a point has so many contacts at once that the time step may be unstable. */
 static void doubt (pg_solver *s)
 {
     const motion *m = motion_of (s);

@@ -9,7 +9,7 @@
 
 enum { RELAXATION_NUMBERS = 7 };
 struct relaxation {
-    double *mass;                                      /* fictitious mass of every unknown, kg (ndof) */
+    double *mass;  /* of every unknown (ndof): fictitious (adr), or that of the body, kg (relax) */
     /* sets the masses again after breaking, which may have stiffened the body; NULL: never */
     pg_status (*weigh) (pg_solver *s);
     double *rate;                                      /* given damping, 1/s; NULL: c (ndof) */

@@ -30,7 +30,7 @@ typedef struct {
  * tip has moved by 0 since the cut, none when it has moved by `length`. */
 typedef struct {
     long    tip;                                       /* the tip whose path length counts */
-    /* 1: no other tip cut bonds at these unknowns, so that the energy dissipated here is this tip's */
+    /* 1: the bonds that it cut are near no other tip, so that the energy dissipated is this tip's */
     int     alone;
     double  way, length;  /* path of the tip since the cut; path over which it opens, m */
     double  energy;                                    /* energy that it takes in all, J */
@@ -61,7 +61,7 @@ typedef struct {
 /* Outcome of the present growth event. */
 typedef struct {
     /* closed: a tip met the surface or a crack; began: a new crack formed; going: a tip goes on; tried: a
-     * trial facet of a tip is among it; energy: what all its facets take, J. */
+     * trial facet of a tip is one of its facets; energy: what all its facets take, J. */
     int     closed, began, going, tried;
     double  energy;
     /* First tip that grew and goes on, -1: none; length that it grew, m. */

@@ -93,7 +93,7 @@ static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c
     c->reach[0] = trial_reach (p, g->state, c->origin, back, limit, &what);
     c->reach[1] = trial_reach (p, g->state, c->origin, c->direction, limit, &what);
     c->edge = fmin (c->reach[0], c->reach[1]) <= c->h + same && fabs (c->reach[0] - c->reach[1]) > 2 * same;
-    if (c->edge && c->reach[1] < c->reach[0]) {        /* so that it runs away from the near surface */
+    if (c->edge && c->reach[1] < c->reach[0]) {        /* turn it to run away from the near surface */
         double swap = c->reach[0];
         c->reach[0] = c->reach[1], c->reach[1] = swap;
         memcpy (c->direction, back, sizeof back);

@@ -7,8 +7,8 @@
 
 static int given (const pg_scene *scene, const char *key) { return pg_scene_given (scene, "%s", key); }
 
-/* While a scene is at hand a fault is placed at its key; a program that sets options by itself gets an
- * error. */
+/* Reports a fault: at its key while there is a scene; as an error to a program that has set the options by
+ * itself. */
 pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
 {
     char text[1000];

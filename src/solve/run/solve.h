@@ -498,7 +498,7 @@ pg_status solver_start  (pg_solver *s, pg_state *state);
 pg_status stages_create (pg_solver *s);
 void      stages_free   (pg_solver *s);
 pg_status stages_keep   (pg_solver *s, const pg_keeper *k);
-/* reads stages, which may remove nothing */
+/* only if no stage removes parts */
 pg_status stages_moved  (pg_solver *s, const pg_moved *m, int within);
 /* t at the start and at the end of the present stage (without stages 0 and 1); t of the next level. */
 double    stage_start   (const pg_solver *s);

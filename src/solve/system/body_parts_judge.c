@@ -24,7 +24,7 @@ static const double ALMOST = 1e-5;
 typedef struct {
     const pg_system *s;
     body_parts parts;
-    double *work;                                      /* of each free motion, N (MOST a part) */
+    double *work;  /* work of the loads along each unit free motion, N (MOST a part) */
     double *size, *spin, all;                          /* N, of each part; all: of the body */
 } along_motions;
 enum { MOST = 6 };
