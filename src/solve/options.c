@@ -224,7 +224,7 @@ static int breaks_bonds (const pg_problem *problem)
     return problem->criterion->type && !pg_criterion_of_tips (problem->criterion);
 }
 
-/* Checks that body and force have crack faces that can be told apart. */
+/* Checks that body and force have crack faces that can be distinguished. */
 static void check_faces (const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);

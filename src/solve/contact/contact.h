@@ -239,7 +239,7 @@ void contact_route_free  (struct system_contact *c);
  * at t = now.at; slips count from the last accepted ones. */
 pg_status contact_route_begin (pg_system *s, double from, double *base, double *unit, double *residual);
 /* base and unit become the displacements at s = 0 and 1 of the line of the stretch that leads on from the
- * present s, towards s = 1; *fresh 0: they were it. */
+ * present s, towards s = 1; *fresh 0: they were that line before. */
 pg_status contact_route_ahead (pg_system *s, double *base, double *unit, double *residual, int *fresh);
 /* base and unit become those of the line of the stretch from here back towards s = 0, in total form: slips
  * count from the last accepted ones all along. contact_route_behind continues the path behind a change of

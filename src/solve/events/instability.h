@@ -32,7 +32,7 @@ pg_status instability_moved (pg_solver *s, instability *u, const pg_keeper *k);
 int       instability_holds (pg_solver *s, instability *u, int over);
 /* Called before bonds of an event break at the state. */
 void      instability_before (const pg_solver *s, instability *u, const pg_state *state);
-/* Called after an event's bonds broke and its equilibria were looked for, with outcome `solved`. *moves 1: the
+/* Called after an event's bonds broke and its equilibria were looked for, outcome `solved`. *moves 1: the
  * body is in motion from now on, the state and its energies are those at the start of it, and the outcome
  * does not matter. */
 pg_status instability_after (pg_solver *s, instability *u, pg_state *state, double factor, pg_status solved,
