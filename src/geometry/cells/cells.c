@@ -16,8 +16,8 @@ static const unsigned char face[3][6][4] = {
     {{0,4,7,3}, {1,2,6,5}, {0,1,5,4}, {3,7,6,2}, {0,3,2,1}, {4,5,6,7}},
 };
 
-/* Is lattice cell i within the lattice and its centre in the body? What other ranks hold beyond a part of a
- * lattice counts as kept: where a subdomain ends the body has no surface. */
+/* Is lattice cell i within the lattice and its centre in the body? Cells beyond the lattice of this rank that
+ * other ranks hold count as kept: the end of a subdomain is no surface of the body. */
 static int kept (const pg_lattice *l, const int *i)
 {
     for (int k = 0; k < 3; k++)
@@ -40,7 +40,7 @@ static void corner_at (const pg_lattice *l, const int *i, int c, double *x)
     for (int k = 0; k < l->dim; k++) x[k] = pg_lattice_at (l, k, i[k] + corner[c][k]);
 }
 
-/* Is it kept, and one of those wanted (indices in the whole lattice; NULL: all are)? */
+/* Is lattice cell i kept, and within the box `within` (indices in the whole lattice; NULL: no limit)? */
 static int wanted (const pg_lattice *l, const int *i, const pg_box *within)
 {
     for (int k = 0; within && k < l->dim; k++)
@@ -144,7 +144,7 @@ done:
     return status;
 }
 
-/* A box has 2^dim corners, a face half as many. */
+/* The numbers of nodes follow from 2^dim corners of a box and half as many of a face. */
 pg_status pg_cells_from_part (pg_cells *out, const pg_lattice *lattice, double thickness,
                               const pg_box *within)
 {

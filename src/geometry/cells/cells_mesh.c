@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* ---- names --------------------------------------------------------------------------------------------- */
-/* Letters (those beyond ASCII as well), digits, - and _. */
+/* Is c a letter (any byte beyond ASCII counts as part of one), a digit, - or _? */
 static int is_plain (unsigned char c)
 {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-'
@@ -24,7 +24,7 @@ void pg_set_name (char out[57], const char *name)
     /* A letter of several bytes is kept whole or dropped. */
     while (n > 0 && name[n] && ((unsigned char) name[n] & 0xC0) == 0x80) n--;
     out[n] = '\0';
-    /* all stays everything */
+    /* the name `all` is reserved for the whole boundary and all points */
     if (!n || !strcmp (out, "all")) snprintf (out, 57, "mesh_%s", n ? "all" : "set");
 }
 
@@ -46,7 +46,7 @@ static void put_place (double *to, const pg_mesh *m, int node)
     memcpy (to, m->x + 3 * (size_t) node, (size_t) m->dim * sizeof *to);
 }
 
-/* Nodes, kinds, volumes and blocks of all elements. */
+/* Writes nodes, kinds, volumes and blocks of all elements. */
 static void put_cells (pg_cells *out, const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;
@@ -91,7 +91,7 @@ static void point_normal (pg_cells *out, size_t f, const pg_mesh *m, int e)
     out->area[f] = out->thickness;
 }
 
-/* Nodes, points and measures of all outer faces. */
+/* Writes nodes, cloud points, area, centroid and normal of all outer faces. */
 static void put_facets (pg_cells *out, const source *s)
 {
     const pg_mesh *m = &s->body->mesh;
@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-/* Is `name` what the scene calls the mesh's set `of_mesh`? */
+/* Is `name` the plain form (pg_set_name) of the mesh's set name `of_mesh`? */
 static int same_name (const char *name, const char *of_mesh)
 {
     char clean[57];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Parts into which cracks divide a cell in the plane. What lies in the cell of every segment is put together
- * to chords, from border to border; each chord divides the polygon that it runs through in two. A crack that
- * ends in the cell, branches or crosses another one there divides nothing that has a border of its own: such
- * a cell is left to the caller as it is. */
+ * Parts into which cracks divide a 2D cell. The pieces of crack segments within the cell are joined to chords
+ * that lead from border to border; each chord divides the polygon that it runs through in two. A crack that
+ * ends in the cell, branches or crosses another one there separates no polygon of its own: such a cell is not
+ * divided, and the caller is told so by 0. */
 #include "perigal/cells.h"
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,8 @@
 enum { PIECES = 12 };
 /* The part of a segment in the cell; border: 1 where its end lies on the border of the cell. */
 typedef struct { double end[2][2]; int border[2], used; } piece;
-/* A polygon, counterclockwise, its piece of a crack, and a length that counts as none, m. */
+/* The cell as a polygon, counterclockwise, the n pieces of cracks in it, and a length that counts as zero,
+ * m. */
 typedef struct { pg_cell_part polygon; piece piece[PIECES]; int n; double nothing; } division;
 
 static double cross (const double *a, const double *b, const double *c)
@@ -33,7 +34,7 @@ double pg_cell_part_area (const pg_cell_part *p)
     return sum;
 }
 
-/* By the crossings of the border with a line to the right of x. */
+/* Counts the crossings of the polygon's border with a horizontal ray from x to the right (even-odd rule). */
 int pg_cell_part_holds (const pg_cell_part *p, const double *x)
 {
     int in = 0;
@@ -45,7 +46,8 @@ int pg_cell_part_holds (const pg_cell_part *p, const double *x)
     return in;
 }
 
-/* The border of a cell with straight sides; 0: it has others. */
+/* Writes the polygon of a cell that is a triangle or quadrilateral with straight sides; 0: it is another
+ * kind. */
 static int outline (pg_cell_part *out, const pg_cells *cells, size_t cell)
 {
     int kind = cells->kind[cell];
@@ -88,8 +90,8 @@ static int side_at (const division *d, const double *x)
     return -1;
 }
 
-/* Takes what of a segment lies in the cell. A crack along a side must cover all of it. 0: it cannot be
- * taken. */
+/* Stores the part of segment a b within the cell as a piece. A crack along a side must cover the whole side.
+ * Returns 0 where this makes the cell impossible to divide. */
 static int take (division *d, const pg_cells *cells, size_t cell, const double *a, const double *b)
 {
     double share[2];
@@ -124,8 +126,8 @@ static int crossing (const piece *p, const piece *q, double nothing)
     return (a > 0) != (b > 0) && (c > 0) != (e > 0);
 }
 
-/* The only piece that goes on from x, where another one ends inside the cell, and the end it begins with; -1:
- * none or several. */
+/* Returns the only piece that continues from x, where piece `from` ends inside the cell; begins: which of its
+ * ends lies at x. -1: there is none, or several. */
 static int next_piece (const division *d, int from, const double *x, int *begins)
 {
     int found = -1;
@@ -198,7 +200,8 @@ static int split (pg_cell_parts *out, int n, double chord[][2], double nothing)
     return 0;
 }
 
-/* All chords, each from a piece that begins on the border. */
+/* Divides the cell by all chords; each is put together from pieces, beginning with one that starts on the
+ * border. */
 static int split_all (pg_cell_parts *out, division *d)
 {
     for (int k = 0; k < d->n; k++)

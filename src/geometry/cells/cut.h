@@ -40,8 +40,8 @@ typedef struct {
     int    shape, flat, end, axis;
     /* Which part of the shape it is, numbered as in parts.c. */
     int    part;
-    /* A plane region of the surface of a mesh or an alpha shape, and of which; NULL: it is none. It ends at
-     * edges of its own, not where other surfaces cross it. */
+    /* facets, region: the surface is this plane region of a mesh or an alpha shape; NULL: it is no such
+     * region. A region ends at its own edges, not where other surfaces cross it. */
     const pg_facets *facets;  int region;
 } cut_surface;
 
@@ -116,7 +116,7 @@ typedef struct {
     /* Coordinates that divide the level's axis. hard: the interval of integration ends here, in [-1, 1].
      * soft: near here the height of a surface behaves like a square root, also a little outside [-1, 1];
      * the quadrature of the neighbouring interval substitutes it away. */
-    cut_list hard, soft;  /* soft: square roots begin here, also outside [-1, 1] */
+    cut_list hard, soft;  /* soft: here the height of a surface behaves like a square root */
     /* The surfaces, restricted to the present slice. */
     cut_quadric *q;
 } cut_level;
@@ -127,21 +127,22 @@ typedef struct {
     int    dim, axis[3];
     /* Number of surfaces that take part, and for how many there is memory. */
     size_t n, capacity;
-    /* Their numbers within pg_cut (n). */
+    /* Number of each of these surfaces within pg_cut.surface (n). */
     int   *number;
-    /* Their boxes in local coordinates (n x 3). */
+    /* Corners of the box of each surface, local coordinates (n x 3). */
     double *low, *high;
-    /* Of each surface: its facets, NULL: it is no region of any; 1: this walk passes it over (n). */
+    /* facets: the pg_facets that each surface is a region of, NULL: none. mute: 1: the quadrature under way
+     * leaves the surface out (n each). */
     const pg_facets **facets;
     unsigned char *mute;
-    /* Local: places nearer than `rounding` are one, a surface nearer than `snap` to a face of the cell lies
-     * on it, numbers of size 1 that differ by less than `equal` are equal. Each with the rounding of
-     * coordinates. */
+    /* Tolerances in local coordinates: points nearer than `rounding` are one, a surface nearer than `snap` to
+     * a face of the cell lies on it, numbers of size 1 that differ by less than `equal` are equal. Each
+     * includes the rounding of coordinates. */
     double rounding, snap, equal;
-    /* 1: all surfaces are planes across the axes. Each then divides the whole cell. */
+    /* 1: all surfaces are planes normal to a coordinate axis, so that each divides the whole cell. */
     int square;
-    /* Edges of the regions that come near the cell, local: two ends (2D: one), 6 numbers each, and the
-     * surface of each. */
+    /* edge: edges of regions of pg_facets near the cell, local coordinates: two end points (2D: one), 6
+     * numbers per edge. edge_of: the surface that each edge bounds. */
     double *edge;  int *edge_of;  size_t nedge, edge_room, edge_of_room;
     cut_level level[3];
     /* The present position, local. */
@@ -157,17 +158,17 @@ void cut_split (cut_slices *s, int k);
 /* Is s->at within the box of surface i, to 1e-7 of the cell? */
 int  cut_within (const cut_slices *s, size_t i);
 
-/* Orders of the axes for a walk over the cell (surface -1) or that surface of it, outermost first; returns
- * how many, and sets s->square. The height is the axis that the normals follow most, so that surfaces are
- * graphs over the other axes as far as possible; the axis they follow least is outermost. Of two that they
- * follow equally the surfaces are less bent along the inner one. Equal ones come in every order, so that
- * neither rounding nor the numbers of the axes choose: each order gets its share of the weight. Between
- * planes across the axes any order gives the same points. fixed: the axis that comes first in a face of
- * the cell, and its side; -1: none. */
+/* Orders of the axes for the quadrature of the cell (surface -1) or of that surface in it, outermost first;
+ * returns how many, and sets s->square. The height is the axis that the normals follow most, so that surfaces
+ * are graphs over the other axes as far as possible; the axis they follow least is outermost. Of two that
+ * they follow equally the surfaces are less bent along the inner one. Equal ones come in every order, so that
+ * neither rounding nor the numbers of the axes choose: each order gets its share of the weight. If all
+ * surfaces are planes normal to the axes, any order gives the same points. fixed: the axis that comes first
+ * in a face of the cell, and its side; -1: none. */
 int  cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, int side, int order[6][3]);
-/* Does surface i come near a face of the cell? The cells on both sides find the same ones there. */
+/* Does surface i come near that face of the cell? The two cells at a face get the same answer. */
 int  cut_on_face (const cut_slices *s, size_t i, int axis, int side);
-/* Are both regions of the same facets? Such meet at edges of theirs alone. */
+/* Are surfaces i and j regions of the same pg_facets? Such surfaces meet only at their own edges. */
 int  cut_same_facets (const cut_slices *s, size_t i, size_t j);
 
 /* ---- quadrature ---------------------------------------------------------------------------------------- */
@@ -186,24 +187,25 @@ size_t    cut_work_half_planes (const cut_work *w);
 pg_status cut_work_face   (cut_work *w, int face, int order, pg_cut_points *out);
 /* Measure (volume or area, thickness included), centroid and integral of the outward normal. */
 typedef struct { double size, centre[3], normal[3]; } cut_piece;
-/* These of the body in the cell, or of one part of a surface, by raising the order until the size changes
- * by less than 1e-13 of the cell. */
+/* Computes size, centroid and normal of the body in the cell (surface < 0) or of one part of a surface, by
+ * raising the order until the size changes by less than 1e-13 of the cell. */
 pg_status cut_work_piece  (cut_work *w, int surface, int part, cut_piece *piece);
 /* The size of the present cell, thickness included, from its corners as they are rounded, m^3. */
 double    cut_work_size      (const cut_work *w);
-/* Of all pieces so far that did not settle: the largest change of a size by the last raise of the order (27
- * to 40 points), over that of a whole cell (of its largest face); 0: all have settled. */
+/* Over all pieces so far whose quadrature did not converge: the largest change of a size when the order was
+ * last raised (27 to 40 points), relative to a whole cell (surfaces: to its largest face); 0: all
+ * converged. */
 double    cut_work_unsettled (const cut_work *w);
 /* Does a surface that is a region of facets come near this cell? */
 int       cut_work_faceted (const cut_work *w);
 /* Replaces many points in a cell by fewer with the same moments: sum w p for all polynomials p of degree 3.
- * The places are the centroids of what lies in the boxes of a grid, the weights positive; what does that to
- * the points of a mirrored cell gives the mirrored points. Where it fails the points stay. PG_E_MEMORY. */
+ * The new points are the centroids of the points in each box of a grid, the weights positive; a mirrored cell
+ * gets the mirrored points. Where this fails the points stay as they are. PG_E_MEMORY. */
 pg_status cut_compress    (pg_cut_points *points, size_t first, int dim);
-/* leave 1: points from now on without those of slices and pieces of lines no more than a hundred times as
- * thick as the rounding of places, which decides whether these are there. 0: of all. */
+/* leave 1: quadrature from now on omits slices and pieces of lines at most a hundred times as thick as the
+ * rounding of coordinates, which decides whether such pieces exist at all. 0: nothing is omitted. */
 void      cut_work_leave_slivers (cut_work *w, int leave);
-/* How often the search for places where three surfaces meet was given up (cut_solve). Surfaces that share a
+/* How often the search for points where three surfaces meet was given up (cut_solve). Surfaces that share a
  * curve meet along all of it, and nothing is lost there; lost corners show in cut_work_unsettled. */
 size_t    cut_work_given_up (const cut_work *w);
 #endif

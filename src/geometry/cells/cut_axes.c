@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * In which order the quadrature of a cut cell takes the axes. Where the shape of the surfaces leaves a
- * choice, nothing else may make it: a body in another unit, moved, mirrored or turned by 90 degrees has the
- * same points. */
+ * In which order the quadrature of a cut cell takes the axes. The order must depend on the shape of the
+ * surfaces alone: a body in another unit, moved, mirrored or turned by 90 degrees has the same points. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-/* How steep the surfaces of this walk are along each axis: components of their normals at `centre`, over the
- * largest of each, summed; and how bent. */
+/* steep: per axis the components of the surface normals at `centre`, each normal divided by its largest
+ * component, summed over the surfaces in use. bent: the sums of |A_kk|, a measure of their curvature. */
 static void find_steepness (const cut_slices *s, int surface, const double *centre, double *steep,
                             double *bent)
 {
@@ -18,13 +17,14 @@ static void find_steepness (const cut_slices *s, int surface, const double *cent
         if (s->mute[i] || (surface >= 0 && (size_t) surface != i)) continue;
         cut_gradient (q, centre, g);
         for (int k = 0; k < s->dim; k++) size = fmax (size, fabs (g[k])), bent[k] += fabs (q->A[k][k]);
-        /* of a round surface about the centre of the cell only rounding is left */
+        /* the gradient of a round surface is only rounding where the centre of the cell is its own centre */
         if (size < s->equal) continue;
         for (int k = 0; k < s->dim; k++) steep[k] += fabs (g[k]) / size;
     }
 }
 
-/* Is this order of axes one by ascending steepness of the surfaces, of equal steepness by descending bend? */
+/* Does `order` sort the axes by ascending steepness of the surfaces, and equal ones by descending
+ * curvature? */
 static int rises (const cut_slices *s, const int *order, const double *steep, const double *bent)
 {
     for (int k = 1; k < s->dim; k++) {
@@ -51,7 +51,7 @@ int cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, i
     for (int p = 0; p < (dim == 3 ? 6 : dim); p++)
         if (rises (s, all[p], steep, bent) && !(n > 0 && s->square))
             memcpy (order[n++], all[p], sizeof *order);
-    /* rounding in a circle of near ties: any */
+    /* no order passed, because near ties form a cycle by rounding: take any */
     for (int p = 0; n == 0; p++)
         if (fixed < 0 || all[p][0] == fixed) memcpy (order[n++], all[p], sizeof *order);
     return n;

@@ -14,8 +14,8 @@
 #include <string.h>
 
 enum { NONE, WHOLE, CUT };
-/* A facet to be: cell number in pg_cells, surface number in pg_cut, face of the box if it covers one
- * entirely (else -1), part between dividing half-planes, and its measures. */
+/* A facet before it enters pg_cells: cell number in pg_cells, surface number in pg_cut, face of the box if it
+ * covers one entirely (else -1), part between dividing half-planes, and its measures. */
 typedef struct { int cell, surface, face, part; cut_piece piece; } one_facet;
 
 /* A smaller share of the volume of a box is rounding, wherever the box lies. */
@@ -35,8 +35,8 @@ typedef struct {
     double *volume;
     /* Volume of a whole box, thickness included, m^3. */
     double  whole;
-    /* A smaller share of a box's largest face is no facet: it is rounding, more of it far from the origin,
-     * and no more of its volume can a whole face lose or gain by it. */
+    /* The least share of a box's largest face that counts as a facet. Less is rounding, which grows with the
+     * distance from the origin; a whole face gains or loses no larger share of its box's volume by it. */
     double  least;
     /* The last surface entered in the list of each box, while regions of facets are entered (n). */
     int    *last;
@@ -127,8 +127,8 @@ static void visit_near (builder *m, size_t number, int *near)
             }
 }
 
-/* Visits the boxes near a region of facets (near: as in visit_near), piece by piece: the region may be large
- * and the cell near its plane only, or near a hole in it. */
+/* Visits the boxes near a region of pg_facets, triangle by triangle (2D: segments), as a box may be near the
+ * plane of a large region but outside of it, or in a hole of it. near: as in visit_near. */
 static void visit_region (builder *m, size_t number, int *near)
 {
     const cut_surface *whole = &m->cut->surface[number];
@@ -159,7 +159,7 @@ static void visit_region (builder *m, size_t number, int *near)
     }
 }
 
-/* All surfaces in their order. */
+/* Visits the boxes near each surface, in the order of the surfaces; near: as in visit_near. */
 static void visit_all (builder *m, int *near)
 {
     for (size_t c = 0; c < m->n; c++) m->last[c] = -1;
@@ -168,7 +168,8 @@ static void visit_all (builder *m, int *near)
         else visit_near (m, s, near);
 }
 
-/* Counts, sums, writes, and moves the starts back by one. */
+/* Builds the lists of surfaces near each box: counts, sums, writes, and moves the starts back by one
+ * entry. */
 static pg_status find_near (builder *m)
 {
     pg_status status = PG_OK;
@@ -195,9 +196,9 @@ static pg_status into_cell (const builder *m, size_t c)
     return cut_work_cell (m->cut->work, low, high, m->start[c + 1] - m->start[c], m->near + m->start[c]);
 }
 
-/* Is that share of box c, in which the workspace is, no more than the rounding of the places of its surfaces
- * makes? It moves them by so much that their area times it is volume: a corner of a thousandth of the edge is
- * no rounding a million metres from the origin, though it is less than what a whole face may lose there. */
+/* Is this share of box c, for which the workspace is prepared, no more than rounding can make? Rounding
+ * shifts the surfaces, and shift times area is volume: even a million metres from the origin a corner of a
+ * thousandth of the edge is no rounding, though it is less than what a whole face may lose there. */
 static pg_status only_rounding (const builder *m, size_t c, double share, int *only)
 {
     pg_status status = PG_OK;
@@ -249,7 +250,7 @@ static int beyond (const builder *m, const int *i, int face)
 {
     int at[3] = {i[0], i[1], i[2]};
     at[face / 2] += face % 2 ? 1 : -1;
-    /* where a subdomain ends the body has no surface */
+    /* the end of a subdomain is no surface of the body */
     if (at[face / 2] < 0 || at[face / 2] >= m->l->count[face / 2])
         return m->l->whole[0] && pg_lattice_goes_on (m->l, at) ? WHOLE : NONE;
     size_t c = number_of (m->l, at);
@@ -270,9 +271,9 @@ done:
     return status;
 }
 
-/* Adds the parts of surface f.surface in the prepared cell that have an area. A part that covers a whole
- * face of the box but for what a surface takes that counts as lying on the next one becomes that face, with
- * nodes of its own. */
+/* Adds a facet for each part of surface f.surface in the prepared cell that has an area. A part that covers a
+ * whole face of the box, except for slivers within the tolerances, becomes that face, with nodes of its
+ * own. */
 static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
@@ -288,7 +289,8 @@ done:
     return status;
 }
 
-/* Of how many regions of facets a part lies on that face of box c: only one is known to cover all of it. */
+/* Returns how many regions of pg_facets lie on that face of box c: only a single one surely covers all of
+ * it. */
 static int regions_on (const builder *m, size_t c, const int *i, int face)
 {
     int n = 0;
@@ -393,7 +395,7 @@ done:
     return status;
 }
 
-/* Surfaces, workspace, lists of near surfaces and memory for the states. */
+/* Prepares surfaces, workspace, lists of near surfaces and memory for the states. */
 static pg_status prepare (builder *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
@@ -416,8 +418,8 @@ done:
     return status;
 }
 
-/* Six digits of a cell are far more than the other errors of a discretisation leave; surfaces that nearly
- * touch, or a cusp between them, may not be resolved so far by Gauss points. */
+/* Warns where a size is known to less than six digits of a cell; other errors of a discretisation are far
+ * larger than that. Gauss points may not resolve surfaces that nearly touch, or a cusp between them. */
 int pg_cells_doubt (const pg_cells *cells, char *text, size_t size)
 {
     const double worth_a_warning = 1e-6;
@@ -448,7 +450,8 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
     for (size_t c = 0; c < m.n; c++) if (m.state[c] != NONE) PG_TRY (find_facets (&m, c, cell++));
     for (size_t f = 0; f < m.nfacet; f++) other |= m.facet[f].face < 0;
     double cuts = m.ncut > 0 || other;
-    if (lattice->whole[0]) PG_TRY (pg_ranks_most (1, &cuts));          /* ranks list cells and facets alike */
+    /* all ranks choose alike, so that they list cells and facets in the same order */
+    if (lattice->whole[0]) PG_TRY (pg_ranks_most (1, &cuts));
     if (!(cuts > 0)) status = pg_cells_from_lattice (out, lattice, thickness);
     else {
         double unsettled = cut_work_unsettled (m.cut->work);

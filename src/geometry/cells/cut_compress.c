@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Fewer quadrature points with the same moments. Where the pieces of a surface are many, so are the slices
- * between their edges, and a cell gets thousands of points; every one of them would see a hundred nodes.
+ * between their edges, and a cell gets thousands of points, each of which would have a hundred nodes in its
+ * support.
  *
  * The box of the points is divided into m^dim boxes. All points in one become one, at their centroid and with
  * their weight together: constants and linear functions keep their sums. The weights then change in the
  * smallest way, relative to each, that restores the sums of all polynomials of degree 3 (1, x, ..., z^3; 20
- * in space): w (1 + c.p), c from the moment matrix of the few points. m grows from 3 to 6 until the matrix
- * can be factored safely and all weights stay positive; moments of measures with many points can be carried
- * by positive weights on as many points as there are moments (Tchakaloff 1957), so that this hardly fails. */
+ * in 3D): w (1 + c.p), c from the moment matrix of the few points. m grows from 3 to 6 until the matrix can
+ * be factored safely and all weights stay positive; moments of measures with many points can be carried by
+ * positive weights on as many points as there are moments (Tchakaloff 1957), so that this hardly fails. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-/* Polynomials of degree 3 in space; fewer points than FEW are left alone; finest grid. */
+/* MOMENTS: number of polynomials up to degree 3 in 3D. FEW: cells with at most so many points keep them all.
+ * FINEST: most boxes of the grid along an axis. */
 enum { MOMENTS = 20, FEW = 40, FINEST = 6 };
 
 /* Values of the polynomials of degree 3 at z; returns how many: 4, 10, 20. */
@@ -40,7 +42,8 @@ static void box_of (size_t n, const double *x, size_t dim, double *middle, doubl
     }
 }
 
-/* One try: m boxes along each axis. few: room for m^dim points. 1: done. */
+/* Tries a grid of m boxes along each axis: writes the new points to `few` (room for m^dim). Returns 1 on
+ * success. */
 static int gather (pg_cut_points *few, const pg_cut_points *all, size_t first, size_t dim, int m,
                    const double *middle, const double *half)
 {

@@ -21,7 +21,7 @@ enum { RULE = 40 };
 /* A position this far off a face (local) lies on the other side of it for certain: farther than cut_snap. */
 static const double beyond = 2e-7;
 
-/* The workspace: one cell, one walk at a time. */
+/* The workspace. It serves one cell and one quadrature (recursion over slices and lines) at a time. */
 struct cut_work {
     const struct pg_cut *cut;
     /* Thickness in 2D or cross section in 1D; centre and half edges of the present cell, m. */
@@ -31,17 +31,18 @@ struct cut_work {
     /* Roots along the present line with the two ends of the line (2 n + 2), and the surface that each
      * belongs to. */
     double *node;  int *owner;
-    /* Of the present walk: index of the surface within slices.number, -1: the volume; Gauss points per
-     * interval; the face of the cell to which the walk is confined, -1: none; the part between dividing
+    /* The quadrature under way: index of its surface within slices.number, -1: the volume; Gauss points per
+     * interval; the face of the cell to which it is confined, -1: none; the part between dividing
      * half-planes. */
     int    surface, order, face, part;
-    /* Thinner slices and pieces of lines, local, are passed over (cut_work_leave_slivers). */
+    /* Slices and pieces of lines thinner than this (local) are omitted (cut_work_leave_slivers). */
     double thin;
     /* Number of surfaces near the cell without and with the dividing half-planes, which come last. */
     size_t real, all;
     /* Receives the points. */
     pg_cut_points *out;
-    /* How far cut_work_piece has been from settling, over all calls: see cut_work_unsettled. */
+    /* Largest relative change of a size at which cut_work_piece gave up raising the order, over all calls:
+     * see cut_work_unsettled. */
     double unsettled;
     /* Gauss points and weights on [0, 1] of all orders up to RULE, one behind the other. */
     double *x, *w;
@@ -54,7 +55,7 @@ void pg_cut_points_clear (pg_cut_points *p)
 }
 
 /* ---- rules --------------------------------------------------------------------------------------------- */
-/* Points and weights of the rule of n points. */
+/* Points and weights on [0, 1] of the Gauss rule of n points. */
 static const double *rule_x (const cut_work *w, int n) { return w->x + n * (n - 1) / 2; }
 static const double *rule_w (const cut_work *w, int n) { return w->w + n * (n - 1) / 2; }
 
@@ -91,7 +92,7 @@ void cut_work_free (cut_work **work)
     *work = NULL;
 }
 
-/* Memory for n surfaces. All arrays of the workspace grow together. */
+/* Provides memory for n surfaces. All arrays of the workspace grow together. */
 static pg_status widen (cut_work *w, size_t n)
 {
     pg_status status = PG_OK;
@@ -171,7 +172,7 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
 }
 
 /* ---- lines --------------------------------------------------------------------------------------------- */
-/* Is the position at height z on the present line in the body? In a walk within a face: is the body on both
+/* Is the position at height z on the present line in the body? For quadrature on a face: is the body on both
  * sides of the face there? */
 static int inside (const cut_work *w, double z)
 {
@@ -197,8 +198,8 @@ static int side_of_half_planes (const cut_work *w, const double *at)
     return part;
 }
 
-/* Appends a point at height z of the present line. A failed allocation is noted in slices.status, which
- * ends the walk. */
+/* Appends a point at height z of the present line. A failed allocation is noted in slices.status, which ends
+ * the recursion. */
 static void emit (cut_work *w, double z, double weight, const double *normal)
 {
     pg_status status = PG_OK;
@@ -255,7 +256,8 @@ static void fill_piece (cut_work *w, double from, double to, double weight)
               NULL);
 }
 
-/* The facets to which all surfaces near the cell belong; NULL: there are others too, or none. */
+/* Returns the pg_facets of which all surfaces near the cell are regions; NULL: there are other surfaces too,
+ * or none. */
 static const pg_facets *only_facets (const cut_work *w)
 {
     const cut_slices *s = &w->slices;
@@ -263,9 +265,9 @@ static const pg_facets *only_facets (const cut_work *w)
     return s->n ? s->facets[0] : NULL;
 }
 
-/* Volume points on the present line where nothing but one shape of facets comes near the cell: the body is
- * then the same wherever that shape is inside, and wherever it is outside, so that it is asked twice at most.
- * 0: it does not go like this. */
+/* Volume points on the present line where only one shape of pg_facets comes near the cell: the body is then
+ * the same wherever that shape is inside, and wherever it is outside, so that two tests of the body suffice.
+ * Returns 0 where this does not apply. */
 static int line_between_facets (cut_work *w, double weight)
 {
     enum { CROSSINGS = 64 };
@@ -297,9 +299,9 @@ static int line_between_facets (cut_work *w, double weight)
     return 1;
 }
 
-/* Volume points on the present line. Neighbouring pieces that both lie in the body are joined, as no
- * surface of the body separates them, only the continuation of one; fewer points suffice then. Not between
- * planes across the axes, where the points must not depend on the order of these. */
+/* Volume points on the present line. Neighbouring pieces that both lie in the body are joined, as no surface
+ * of the body separates them, only the continuation of one; fewer points suffice then. Pieces between planes
+ * normal to the axes are not joined, as their points must not depend on the order of axes. */
 static void line_volume (cut_work *w, const cut_quadric *q, double weight)
 {
     if (line_between_facets (w, weight)) return;
@@ -315,7 +317,8 @@ static void line_volume (cut_work *w, const cut_quadric *q, double weight)
     fill_piece (w, from, to, weight);
 }
 
-/* Does surface i reach to the position s->at? By its box; a region of facets by its pieces. */
+/* Does surface i extend to the position s->at? Judged by its box; for a region of pg_facets by its
+ * triangles. */
 static int reaches (const cut_work *w, size_t i)
 {
     const cut_slices *s = &w->slices;
@@ -326,7 +329,7 @@ static int reaches (const cut_work *w, size_t i)
     return pg_facets_meets (s->facets[i], w->cut->surface[s->number[i]].region, x, s->axis[s->dim - 1]);
 }
 
-/* Is root k (of m) an intersection with the surface of this walk, within its box, and the first surface
+/* Is root k (of m) an intersection with the surface under quadrature, within its box, and the first surface
  * that claims this position? Coincident surfaces would count twice otherwise. */
 static int owned (cut_work *w, int k, int m)
 {
@@ -343,7 +346,7 @@ static int owned (cut_work *w, int k, int m)
 }
 
 /* Emits the point of the surface at height t on the present line; `under`: the body lies below it. The
- * element of area is that of the projection on the plane across the height, divided by the cosine between
+ * element of area is that of the projection on the plane normal to the height, divided by the cosine between
  * normal and height. */
 static void emit_surface (cut_work *w, double t, int under, double weight)
 {
@@ -365,7 +368,7 @@ static void emit_surface (cut_work *w, double t, int under, double weight)
     w->slices.at[z] = at[z];
 }
 
-/* Surface points on the present line: intersections with the surface of this walk that have the body on
+/* Surface points on the present line: intersections with the surface under quadrature that have the body on
  * exactly one side. A root at an end of the line lies on a face between two cells: it counts for the cell
  * that has the body. */
 static void line_surface (cut_work *w, const cut_quadric *q, double weight)
@@ -379,7 +382,8 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
         while (b < m + 1 && t[b] - t[k] < rounding) b++;
         double low = 0.5 * (t[k] + (t[k] - t[a] < rounding ? -1 - beyond : t[a])),
                high = 0.5 * (t[k] + (t[b] - t[k] < rounding ? 1 + beyond : t[b]));
-        /* Other regions of the same facets are passed over, and may lie near. */
+        /* Other regions of the same pg_facets are not among the roots and may lie near: the body is tested
+         * close by. */
         if (w->slices.facets[w->surface]) low = t[k] - beyond, high = t[k] + beyond;
         int under = inside (w, low), over = inside (w, high);
         if (under == over || (t[k] == -1 && under) || (t[k] == 1 && over)) continue;
@@ -388,7 +392,7 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
 }
 
 /* ---- the walk ------------------------------------------------------------------------------------------ */
-/* Level k of the recursion, k = 0 first; weight: product of the weights so far. */
+/* Quadrature over level k of the recursion, k = 0 first; weight: product of the weights so far. */
 static void walk (cut_work *w, int k, double weight);
 
 /* Fixes the coordinate of level k and descends into that slice. */
@@ -403,8 +407,8 @@ static void go_on (cut_work *w, int k, double at, double weight)
     walk (w, k + 1, weight);
 }
 
-/* Gauss points on [a, b] of level k. root: NAN, or a soft split at a or below, or at b or above; then x =
- * root +- s^2, with half as many points again, because the substitution doubles the degree. */
+/* Visits the Gauss points on [a, b] of level k. root: NAN, or a soft split at a or below, or at b or above;
+ * then x = root +- s^2, with half as many points again, because the substitution doubles the degree. */
 static void interval (cut_work *w, int k, double a, double b, double root, double weight)
 {
     int order = w->order, rooted = !isnan (root), up = rooted && root <= a;
@@ -460,7 +464,8 @@ static void walk (cut_work *w, int k, double weight)
     double a = -1;
     for (size_t i = 0; i <= s->level[k].hard.n; i++) {
         double b = i < s->level[k].hard.n ? s->level[k].hard.at[i] : 1;
-        if (1 - b < s->snap) b = 1;                    /* what splits beside a face splits on it */
+        /* a split within the tolerance of the face lies on it */
+        if (1 - b < s->snap) b = 1;
         if (b - a < fmax (w->thin, a == -1 ? s->snap : fmax (1e-12, s->rounding))) continue;
         double left = nearest (&s->level[k].soft, a, 1, b - a, s->rounding),
                right = nearest (&s->level[k].soft, b, 0, b - a, s->rounding), middle = 0.5 * (a + b);
@@ -479,7 +484,7 @@ size_t cut_work_half_planes (const cut_work *w)
 
 void cut_work_leave_slivers (cut_work *w, int leave)
 {
-    const double sliver = 100;                         /* times the rounding */
+    const double sliver = 100;                         /* thickness, in units of the rounding */
     w->thin = leave ? sliver * w->slices.rounding : 0;
 }
 
@@ -490,7 +495,7 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
     for (size_t i = 0; i < s->n && surface >= 0; i++) if (s->number[i] == surface) w->surface = (int) i;
     if (surface >= 0 && w->surface < 0) return PG_OK;
-    /* A region of facets ends at edges of its own: the other regions do not matter to it. */
+    /* A region of pg_facets ends at its own edges: the other regions are left out. */
     for (size_t i = 0; i < s->n; i++)
         s->mute[i] = w->surface >= 0 && (int) i != w->surface && cut_same_facets (s, i, (size_t) w->surface);
     int order_of[6][3], orders = cut_axes (s, w->cut, w->surface, -1, 0, order_of);
@@ -501,8 +506,8 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     return s->status;
 }
 
-/* The face's axis becomes the outermost, fixed at the face; the walk covers the other axes. The weight of
- * the outermost axis, half an edge, is divided out again. */
+/* The face's axis becomes the outermost, fixed at the face; the quadrature covers the other axes. The weight
+ * of the outermost axis, half an edge, is divided out again. */
 pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
 {
     cut_slices *s = &w->slices;
@@ -564,8 +569,8 @@ int cut_work_faceted (const cut_work *w)
     return 0;
 }
 
-/* Orders grow by about 1.5 each; convergence is relative to the cell (for a surface: to its largest face).
- * Between planes two Gauss points are exact: three, or five, only show that they are. */
+/* The orders grow by a factor of about 1.5; convergence is relative to the cell (for a surface: to its
+ * largest face). Between planes two Gauss points are exact: orders 3 and 5 only confirm it. */
 pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
 {
     static const int orders[] = {2, 3, 5, 8, 12, 18, 27, 40};

@@ -10,8 +10,8 @@
 /* Boxes visited at most. Three surfaces with a curve in common have infinitely many solutions; no box on
  * the curve could ever be discarded. */
 enum { BOXES = 4000 };
-/* The three quadrics, the solutions so far (n x 3), half the edge of the cube, number of solutions and
- * boxes; full: a solution found no room. */
+/* State of a search: the three quadrics, the solutions so far (n x 3), half the edge of the cube, the numbers
+ * of solutions and of boxes visited; full: a solution found no room. */
 typedef struct { const cut_quadric *q; double *x, reach; int n, boxes, full; } search;
 
 /* Newton's method by Cramer's rule, from x. 1: converged (step below 1e-15, or values below 1e-12 after 20

@@ -1,23 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the slices of a cell change: values of the outer coordinate between which the surfaces keep their
- * number and order along the height, so that the integrand of the outer quadrature is smooth there (Saye
- * 2015).
+ * Splits: values of the outer coordinate between which the surfaces keep their number and order along the
+ * height, so that the integrand of the outer quadrature is smooth there (Saye 2015).
  *
  * Hard splits end intervals of the quadrature: a surface crosses the low or high face of the height, two
  * surfaces meet, or a surface or curve turns back inside the cell. Soft splits mark where heights begin
  * like a square root (a tangent along the height), also somewhat outside the cell, where they still spoil
  * convergence.
  *
- * In a plane slice with coordinates y and z (the height) a surface is a conic a z^2 + B (y) z + C (y) = 0,
- * so that all splits are roots of polynomials in y of degree 4 at most. In a solid the splits along x are
- * points where three quadrics vanish (cut_solve.c), and the splits of the four side faces of the cell. */
+ * In a plane slice with coordinates y and z (the height) a surface is a conic a z^2 + B (y) z + C (y) = 0, so
+ * that all splits are roots of polynomials in y of degree 4 at most. In 3D the splits along x are points
+ * where three quadrics vanish (cut_solve.c), and the splits of the four side faces of the cell. */
 #include "cut.h"
 #include <math.h>
 
 /* A coefficient below this is zero (coefficients have size 1). */
 static const double flat = 1e-13;
 
-/* Positions this far from the middle of the cell count as in it. */
+/* Local coordinates up to this size count as inside the cell. */
 static double near_box (const cut_slices *s) { return 1 + s->equal; }
 
 /* Appends a value. A failed allocation is noted in s->status. */
@@ -30,7 +29,7 @@ done:
     if (status != PG_OK) s->status = status;
 }
 
-/* The box of a surface is closed by 1e-7 of the cell, more than the error of any intersection found here. */
+/* The box of a surface is widened by 1e-7 of the cell, more than the error of any intersection found here. */
 int cut_within (const cut_slices *s, size_t i)
 {
     for (int k = 0; k < s->dim; k++)
@@ -39,7 +38,7 @@ int cut_within (const cut_slices *s, size_t i)
     return 1;
 }
 
-/* Do the boxes of surfaces i and j have a place in common? */
+/* Do the boxes of surfaces i and j have a point in common? */
 static int overlap (const cut_slices *s, size_t i, size_t j)
 {
     for (size_t k = 0; k < (size_t) s->dim; k++)
@@ -101,7 +100,7 @@ static double difference (double u, double v)
     return fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
 }
 
-/* What resultant gives where both conics are linear in z. */
+/* The result of `resultant` where both conics are linear in z. */
 static int linear_resultant (const conic *p, const conic *q, double *R)
 {
     for (int k = 0; k < 4; k++) R[k] = 0;
@@ -124,7 +123,7 @@ static int resultant (const conic *p, const conic *q, double *R)
         C[k] = difference (p->a * q->C[k], q->a * p->C[k]);
         scale = fmax (scale, fabs (C[k]));
     }
-    /* Mirror images about a plane across the height: every z is common. */
+    /* The conics are mirror images about a plane normal to the height: every z is common. */
     if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {
         for (int k = 0; k < 3; k++) R[k] = C[k];
         return 2;
@@ -168,8 +167,8 @@ static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const
     }
 }
 
-/* Do two planes coincide (in local coordinates, to 1e-6)? Edges of a polygon that lie in one line do, and
- * nothing but the ends of their boxes tells where one ends and the next begins. */
+/* Do two planes coincide (in local coordinates, to 1e-6)? Collinear edges of a polygon do; only the ends of
+ * their boxes tell where one ends and the next begins. */
 static int coincide (const cut_quadric *p, const cut_quadric *q)
 {
     double plus = fabs (p->c + q->c), minus = fabs (p->c - q->c), size = fabs (p->c);
@@ -280,7 +279,7 @@ static int straight (const cut_quadric *q)
 static void split_box_faces (cut_slices *s, const cut_quadric *q, cut_level *out)
 {
     int x = s->axis[0], y = s->axis[1], z = s->axis[2];
-    /* The next level is free until the walk descends into it. */
+    /* The next level's array is unused until the recursion descends into it. */
     cut_quadric *face = s->level[1].q;
     for (int f = 0; f < 4; f++) {
         int across = f < 2 ? z : y, along = f < 2 ? y : z;
@@ -314,7 +313,7 @@ static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
 }
 
 /* ---- edges of facets ----------------------------------------------------------------------------------- */
-/* The place on the edge where coordinate k is `at`; 0: it is not on it. */
+/* Sets x to the point of the edge at which coordinate k is `at`; 0: the edge has none. */
 static int edge_at (const double *edge, int k, double at, double *x)
 {
     double way = edge[3 + k] - edge[k], t = (at - edge[k]) / way;
@@ -323,8 +322,8 @@ static int edge_at (const double *edge, int k, double at, double *x)
     return 1;
 }
 
-/* A split along axis `out_of` at x, where that lies in the cell: in the coordinates across it and, unless
- * free < 0, not asking for coordinate `free`. */
+/* Adds a split along axis `along` at x if x lies in the cell. Coordinate `free` of x is not checked (-1: all
+ * are). */
 static void push_place (cut_slices *s, cut_list *hard, const double *x, int along, int free)
 {
     for (int k = 0; k < s->dim; k++)
@@ -332,8 +331,8 @@ static void push_place (cut_slices *s, cut_list *hard, const double *x, int alon
     if (fabs (x[along]) < 1) push (s, hard, x[along]);
 }
 
-/* Splits along `along` at the ends of an edge and where it leaves the cell through a face across one of the
- * other axes; `fixed` is the axis of the present slice, in which the edge lies, or -1. */
+/* Splits along `along` at the ends of an edge and where it leaves the cell through a face normal to one of
+ * the other axes; `fixed` is the axis of the present slice, in which the edge lies, or -1. */
 static void split_edge (cut_slices *s, cut_list *hard, const double *edge, int along, int fixed)
 {
     double x[3];
@@ -343,7 +342,7 @@ static void split_edge (cut_slices *s, cut_list *hard, const double *edge, int a
             if (edge_at (edge, k, side, x)) push_place (s, hard, x, along, fixed);
 }
 
-/* Splits where other surfaces cross an edge: on it their quadric is a quadratic polynomial. */
+/* Splits where other surfaces cross an edge of a region: along it their quadric is a quadratic polynomial. */
 static void split_edge_crossings (cut_slices *s, cut_list *hard, const double *edge, size_t of, int along)
 {
     for (size_t i = 0; i < s->n; i++) {
@@ -362,8 +361,8 @@ static void split_edge_crossings (cut_slices *s, cut_list *hard, const double *e
     }
 }
 
-/* The regions of facets end at their edges, and nothing else tells where: splits along the outermost axis,
- * then those of the slice. */
+/* Splits at the edges of regions of pg_facets, which end there and nowhere else: along the outermost axis for
+ * the whole cell (level 0), then within the slice. */
 static void split_edges (cut_slices *s, int level, cut_list *hard)
 {
     int along = s->axis[level];
@@ -384,7 +383,7 @@ static void split_edges (cut_slices *s, int level, cut_list *hard)
     }
 }
 
-/* Splits at planes across the axis of this level, also where they do not bound the body. */
+/* Splits at planes normal to the axis of this level, also where they do not bound the body. */
 static void split_square (cut_slices *s, int level, cut_list *hard)
 {
     int along = s->axis[level];

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* ---- quadrics ------------------------------------------------------------------------------------------ */
-/* The loops run to 3 in every dimension: coefficients beyond dim are zero. */
+/* Loops run to 3 in 1D and 2D too: coefficients beyond dim are zero. */
 double cut_value (const cut_quadric *q, const double *x)
 {
     double v = q->c;
@@ -28,7 +28,7 @@ void cut_gradient (const cut_quadric *q, const double *x, double *g)
     }
 }
 
-/* Collects the terms with x[axis] in the others, then erases the axis. */
+/* Moves the terms with x[axis] into the remaining coefficients, then zeroes those of the axis. */
 void cut_restrict (cut_quadric *q, int axis, double at)
 {
     q->c += q->b[axis] * at + q->A[axis][axis] * at * at;
@@ -76,7 +76,7 @@ cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, cons
 }
 
 /* ---- surfaces of shapes -------------------------------------------------------------------------------- */
-/* The list under construction. */
+/* The list of surfaces under construction. */
 typedef struct { struct pg_cut *cut; size_t capacity; } builder;
 
 /* Are these the same surface with the same box, up to the sign of psi? Compared in the local coordinates of
@@ -138,7 +138,8 @@ done:
     return status;
 }
 
-/* Circle, sphere: psi = (|x - c|^2 - R^2) / 2R; cylinder: the same with the distance from its axis. */
+/* Adds a circle or sphere, psi = (|x - c|^2 - R^2) / 2R, or a cylinder, with the distance from its axis
+ * instead. */
 static pg_status add_round (builder *m, cut_surface s, const pg_shape *shape)
 {
     double R = shape->radius;
@@ -152,7 +153,7 @@ static pg_status add_round (builder *m, cut_surface s, const pg_shape *shape)
     return add (m, &s);
 }
 
-/* The round surface and the two flat ends (part 1 at the centre, 2 at the far end); a disc with axis a
+/* Adds the round surface and the two flat ends (part 1 at the centre, 2 at the far end); a disc with axis a
  * extends R sqrt (1 - a_k^2) along axis k. */
 static pg_status add_cylinder (builder *m, cut_surface s, const pg_shape *shape)
 {
@@ -174,7 +175,7 @@ done:
     return status;
 }
 
-/* One plane for each edge (part: number of its first vertex); of a prism also the ends along z. */
+/* Adds one plane for each edge (part: number of its first vertex); of a prism also the two ends along z. */
 static pg_status add_polygon (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
@@ -197,8 +198,8 @@ done:
     return status;
 }
 
-/* One plane for each edge of a plate, in its own plane: from vertex j to i, outwards, half a thickness wide
- * on each side; and its two faces (parts n and n + 1). */
+/* Adds one plane for each edge of a plate, normal to the plate: from vertex j to i, normal outwards, half a
+ * thickness wide on each side; and the two faces of the plate (parts n and n + 1). */
 static pg_status add_plate (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
@@ -266,8 +267,8 @@ static pg_status add_half_plane (builder *m, const pg_ray *ray)
     return add_plane (m, s, point, n);
 }
 
-/* For a mesh seen as a staircase: all planes of the lattice. cut_cells.c gives a cell only those at which
- * the staircase has a step. */
+/* Adds all planes of the lattice for a mesh represented as a staircase. cut_cells.c gives a cell only those
+ * at which the staircase has a step. */
 static pg_status add_stairs (builder *m, cut_surface s, const pg_lattice *l)
 {
     pg_status status = PG_OK;
@@ -286,7 +287,7 @@ done:
     return status;
 }
 
-/* The plane regions of a mesh or an alpha shape. */
+/* Adds the plane regions of the surface of a mesh or an alpha shape. */
 static pg_status add_facets (builder *m, cut_surface s, const pg_facets *f)
 {
     pg_status status = PG_OK;
@@ -312,7 +313,7 @@ done:
 }
 
 /* Replaces meshes and alpha shapes by flat pieces of their surface, alpha shapes with a rim by their
- * staircases on the lattice; such a body needs a list of shapes of its own. */
+ * staircases on the lattice; such a body gets its own copy of the list of shapes. */
 static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;

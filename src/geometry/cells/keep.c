@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cells of a rank where a body that no lattice gives is divided (perigal/ranks.h): of the cells of the whole
- * body those around the points that it owns. A cell belongs to the rank that owns the point nearest to its
- * middle, which all ranks find alike, as each has read all points. */
+ * Cells of a rank where a body that stands on no lattice is divided among ranks (perigal/ranks.h): of all
+ * cells of the body, those around the points that the rank owns. A cell belongs to the rank that owns the
+ * point nearest to its middle; every rank has read all points and finds the same. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-/* While cells are chosen and copied. */
+/* State while cells are chosen and copied. */
 typedef struct {
     const pg_cells *from;
     const pg_cloud *whole;
-    /* Of each cell: is it owned here, and its number here, -1: it is not kept (from->n); of each point of the
-     * whole body its number here, -1: it is not held (whole->n); of each facet (from->nfacet). */
+    /* owned: of each cell: does this rank own it? cell (from->n), point (whole->n), facet (from->nfacet):
+     * number on this rank of each cell, point and facet of the whole body, -1: not kept. */
     unsigned char *owned;
     int *cell, *point, *facet;
-    /* Cells, their nodes, facets and their nodes that are kept. */
+    /* Numbers of cells kept, of their nodes, of facets kept and of their nodes. */
     size_t n, nx, nfacet, nfx;
 } choice;
 
 /* ---- which ones ---------------------------------------------------------------------------------------- */
-/* The box of the points that this rank owns and of what lies within `reach` of it. */
+/* Bounding box of the points that this rank owns, widened by `reach` (m). */
 static void region_of (const pg_cloud *c, const int *owner, double reach, double *low, double *high)
 {
     for (int k = 0; k < c->dim; k++) low[k] = INFINITY, high[k] = -INFINITY;
@@ -30,7 +30,7 @@ static void region_of (const pg_cloud *c, const int *owner, double reach, double
         }
 }
 
-/* Does the box of the nodes of a cell meet the region? middle: mean place of the nodes. */
+/* Does the box of the nodes of a cell meet the region? middle: mean position of the nodes, m. */
 static int meets (const pg_cells *c, size_t cell, const double *low, const double *high, double *middle)
 {
     int yes = 1;
@@ -74,7 +74,7 @@ done:
     return status;
 }
 
-/* Points held, by their numbers in the whole body. */
+/* Finds the number on this rank of each point of the whole body, -1: the rank does not hold it. */
 static pg_status number_points (choice *w)
 {
     pg_status status = PG_OK;
@@ -131,7 +131,7 @@ done:
     return status;
 }
 
-/* Of what is kept: the surfaces near each cell, the part of each facet; in place. */
+/* Reduces to the kept cells and facets, in place: the surfaces near each cell and the part of each facet. */
 static void keep_cut (struct pg_cut *cut, const choice *w)
 {
     size_t at = 0;
@@ -145,7 +145,7 @@ static void keep_cut (struct pg_cut *cut, const choice *w)
     for (size_t f = 0; f < w->from->nfacet; f++) if (w->facet[f] >= 0) cut->part[w->facet[f]] = cut->part[f];
 }
 
-/* Numbers of a set that are kept, by their new numbers; both ascend. */
+/* Replaces the numbers in a list by those on this rank and drops those not kept; both ascend. */
 static void keep_numbers (int *list, size_t *n, const int *number)
 {
     size_t kept = 0;

@@ -2,7 +2,8 @@
  * Keys of cells and of named sets of points and boundary facets. */
 #include "perigal/cells.h"
 
-/* Each row is one key of a scene: path, kind, unit, default, choices and the text of `perigal help`. */
+/* Each row is one key of the input file: path, kind, unit, default, choices and the text of `perigal
+ * help`. */
 static const pg_key keys[] = {
     { .path = "cells",
       .kind = PG_NAME,

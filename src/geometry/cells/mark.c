@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points and facets lie on the surface of a shape, or belong to a set that the mesh brought. (Sides
- * of the bounding box: sides.c; parts of shapes: parts.c.) Marks of points and facets go together: a facet
- * marks the points linked to it, so that a load on the facets and a support of the points refer to the same
- * place. */
+ * Which points and facets lie on the surface of a shape, or belong to a set read with the mesh. (Sides of the
+ * bounding box: sides.c; parts of shapes: parts.c.) Marks of points and facets go together: a facet marks the
+ * points linked to it, so that a load on the facets and a support of the points refer to the same part of the
+ * boundary. */
 #include "cut.h"
 #include "mark.h"
 #include "sites.h"
@@ -12,7 +12,7 @@
 const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "back", "front"};
 
 /* ---- points of facets ---------------------------------------------------------------------------------- */
-/* A facet in a cut cell that lies on a face of the cell: of the n points of the cell keeps those on that
+/* If facet f of a cut cell lies on a face of the cell: keeps, of the n points of the cell, those on that
  * face, if there are any. Returns how many are left. */
 static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
 {
@@ -30,7 +30,8 @@ static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
 }
 
 /* The points of facet f, at most 8: those at the corners of a whole face; for a piece of the surface those
- * points of its cell that are not surrounded by kept cells; for points at the centres of cells the centre. */
+ * points of its cell that are not surrounded by kept cells; where points stand at the centres of cells, that
+ * of its cell. */
 static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
     const pg_cells *c = m->cells;
@@ -46,8 +47,8 @@ static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, in
     return n;
 }
 
-/* The points of facet f of any kind: of a lattice by its sites; of a grid over points from a file the nearest
- * of them; facets of a mesh know theirs. */
+/* The points of facet f: on a lattice by its sites; on a grid over points from a file the nearest point;
+ * facets of a mesh have a list of theirs. */
 static int points_of (const pg_marks *m, const cells_sites *s, const pg_nearest *near, size_t f, int *point)
 {
     const pg_cells *c = m->cells;
@@ -159,9 +160,9 @@ void cells_mark_facet (pg_marks *m, size_t f)
     for (size_t k = m->facet_first[f]; k < m->facet_first[f + 1]; k++) m->point[m->facet_point[k]] = 1;
 }
 
-/* A facet of the exact surface knows. A face of a staircase counts if its normal is nearer to the axis than
- * to the plane across it (cosine^2 > 1/2) and its centroid lies within 3/4 of a step of one of the two
- * ends. */
+/* A facet of the exact surface has a flag for it. A face of a staircase counts if its normal is nearer to the
+ * axis than to the plane normal to it (cosine^2 > 1/2) and its centroid lies within 3/4 of a step of one of
+ * the two ends. */
 int cells_is_end (const pg_marks *m, size_t f)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
@@ -214,7 +215,7 @@ static int mark_shape (pg_marks *m, const char *name)
     return known;
 }
 
-/* Marks a set that the mesh brought; 0: there is none of that name. */
+/* Marks a set read with the mesh; 0: there is none of that name. */
 static int mark_given (pg_marks *m, const char *name)
 {
     for (size_t i = 0; i < m->cells->ngiven; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Named parts of the surfaces of shapes, SHAPE.PART: disk.rim, box.right, polygon.edge 3, bore.rim. SHAPE is
- * the name that the scene gives it, or what it is; PART is rim (disk, sphere, cylinder), start or end
- * (cylinder: flat, at its center and at the far end of its axis), left right bottom top back front (box),
+ * the name that the input file gives the shape, or its kind; PART is rim (disk, sphere, cylinder), start or
+ * end (cylinder: flat, at its center and at the far end of its axis), left right bottom top back front (box),
  * edge 1, edge 2 ... (polygon, prism: from that vertex to the next), back or front (prism: the ends of z). */
 #include "cut.h"
 #include "mark.h"
@@ -62,7 +62,7 @@ static const char *parts_of (const pg_shape *s, int dim)
                                     : NULL;
 }
 
-/* Is shape i called `name` (of that length): by its own name, or by what it is ("disk")? Shapes made by
+/* Is shape i called `name` (of that length): by its own name, or by its kind ("disk")? Shapes made by
  * boundary layers only by their own. */
 static int is_called (const pg_body *body, size_t i, const char *name, size_t length)
 {
@@ -73,8 +73,7 @@ static int is_called (const pg_body *body, size_t i, const char *name, size_t le
     return i + body->nlayer < body->n && strlen (kind) == length && !strncmp (kind, name, length);
 }
 
-/* Shapes named rim or side by default are listed by what they are, as are holes from a mesh; equal ones
- * once. */
+/* Shapes named rim or side by default are listed by their kind, as are holes from a mesh; equal ones once. */
 void cells_parts_list (const pg_body *body, char *out, size_t size)
 {
     size_t used = 0;
@@ -143,7 +142,8 @@ static size_t split (const char *name, const char **part)
     return dot ? (size_t) (dot - name) : 0;
 }
 
-/* Every shape that is called so counts. In a mesh facets have no shapes, so that there are no parts. */
+/* Marks the part of every shape that is called SHAPE. Facets of a mesh belong to no shape: it has no
+ * parts. */
 int cells_mark_part (pg_marks *m, const char *name)
 {
     const char *part;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Named sets: the sides of the bounding box and `all`, the sets of the mesh, boundary layers, the sets of
- * the scene, and the parts of shapes that the scene names elsewhere; each with its halves NAME.left,
+ * Named sets: the sides of the bounding box and `all`, the sets of the mesh, boundary layers, the sets of the
+ * input file (scene), and the parts of shapes that the scene names elsewhere; each with its halves NAME.left,
  * NAME.top, ... A set of the scene begins with its boundary, or with everything, and its other conditions
- * take points and facets away. Faults of the user are collected: one wrong set does not hide the faults of
- * the next. */
+ * remove points and facets. Errors of the user are collected: one wrong set does not hide the errors of the
+ * next. */
 #include "cut.h"
 #include "mark.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The sets under construction. faces: the present marks are those of faces, so that the set has no inside.
- * by_faces: they are those of a side set of a mesh. */
+/* The sets under construction. faces: 1: the current marks come from boundary faces, so that the set has no
+ * interior points. by_faces: 1: they come from a side set of a mesh. */
 typedef struct {
     pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces, by_faces;
 } builder;
@@ -87,7 +87,7 @@ done:
     return status;
 }
 
-/* The sides, `all`, and what the mesh brought and is not there yet. */
+/* Adds the sets of the sides, `all`, and those sets of the mesh whose names are not taken yet. */
 static pg_status add_predefined (builder *b)
 {
     pg_status status = PG_OK;
@@ -114,9 +114,9 @@ done:
     return status;
 }
 
-/* One set for each boundary layer: the points in it and the facets of its cells. Points at vertices count
- * as the layer's beyond half a step from the body's face: the face itself belongs to the body, also where
- * points are perturbed. */
+/* Adds one set for each boundary layer: the points in it and the facets of its cells. Points at lattice
+ * vertices belong to the layer only beyond half a step from the face where the body ends and the layer
+ * begins: that face belongs to the body, also where points are perturbed. */
 static pg_status add_layers (builder *b)
 {
     pg_status status = PG_OK;
@@ -210,7 +210,7 @@ pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg
     for (size_t i = 0; body->dim > 1 && (name = pg_scene_name (scene, i, "sets")); i++)
         for (size_t k = 0; k < pg_scene_count (scene, "sets.%s.angle", name); k++) {
             double v[2] = {0, 0};
-            /* a fault, found later */
+            /* not a pair: keep_angles reports it */
             if (pg_scene_count (scene, "sets.%s.angle[%zu]", name, k) != 2) continue;
             pg_scene_vector (scene, 2, v, "sets.%s.angle[%zu]", name, k);
             for (int e = 0; e < 2; e++) PG_TRY (add_ray (out, n, &capacity, body, v[e]));
@@ -219,9 +219,9 @@ done:
     return status;
 }
 
-/* A fault where a marked facet lies in a cell that more rays come near than can divide it: it would be inside
- * and outside of a range at once. This needs a surface within a cell's size of the centre, where all rays
- * begin. */
+/* Reports a fault where a marked facet lies in a cell that more rays come near than can divide it: it would
+ * be inside and outside of a range at once. This needs a surface within a cell's size of the centre, where
+ * all rays begin. */
 static void check_rays (const builder *b, const char *at)
 {
     const pg_cells *c = b->marks.cells;
@@ -305,7 +305,8 @@ int pg_sets_empty_side (const pg_sets *sets, const pg_set *set)
     return pg_set_points (set) == 0 && pg_set_facets (set) == 0 && side_of (sets, set->name) >= 0;
 }
 
-/* The fault of naming a side without a face: says where its plane is and what could be meant. */
+/* Reports that a set names a side on which the body has no face: says where its plane is and what could be
+ * meant. */
 static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name)
 {
     int side = side_of (sets, name);
@@ -318,8 +319,8 @@ static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const 
                     *sets->parts ? ")" : "");
 }
 
-/* The surfaces of the shapes by name, each once, and the sides of meshes; as many as fit. Returns the new
- * length. */
+/* Appends the names of the surfaces of shapes, each once, and of the sides of meshes; as many as fit. Returns
+ * the new length. */
 static size_t list_surfaces (const pg_body *body, char *names, size_t used, size_t size)
 {
     for (size_t i = 0; i < body->n && used + 34 < 400; i++) {
@@ -335,7 +336,7 @@ static size_t list_surfaces (const pg_body *body, char *names, size_t used, size
     return used;
 }
 
-/* The fault of an unknown `boundary`: lists all names, and suggests the nearest. */
+/* Reports an unknown `boundary`: lists all names, and suggests the nearest. */
 static void unknown_boundary (const builder *b, const char *at, const char *name)
 {
     char names[800] = "";
@@ -358,7 +359,7 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
     else pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; there are %s", name, names);
 }
 
-/* Marks all boundaries that the set names; a fault for each unknown name or empty side. 0 if there was
+/* Marks all boundaries that the set names; reports each unknown name or empty side. Returns 0 if there was
  * one. */
 static int mark_boundaries (builder *b, const char *name)
 {
@@ -381,7 +382,7 @@ static int mark_boundaries (builder *b, const char *name)
 /* Is any of n marks set? */
 static int marked (const unsigned char *mark, size_t n) { return n > 0 && memchr (mark, 1, n) != NULL; }
 
-/* Why a set of the scene may not have the name of one that is there already. */
+/* Returns the message for a set of the input file whose name is taken already. */
 static const char *why_taken (const builder *b)
 {
     if (b->marks.cells->ngiven) return "this set is always there or comes with the mesh, choose another name";
@@ -389,7 +390,8 @@ static const char *why_taken (const builder *b)
     return "this set is always there, choose another name";
 }
 
-/* Records the fault. An empty set of that name lets what refers to it be checked all the same. */
+/* Reports the fault `why` and adds an empty set of that name, so that references to it can still be
+ * checked. */
 static pg_status refuse_set (builder *b, const char *name, const char *at, const char *why)
 {
     int side = b->marks.cells->ngiven ? -1 : side_of (b->out, name);
@@ -403,8 +405,8 @@ static pg_status refuse_set (builder *b, const char *name, const char *at, const
     return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
 }
 
-/* Adds a set of the scene. After a fault in it, it is added empty, so that the rest of the scene that names
- * it brings no fault of its own. */
+/* Adds a set of the input file (scene). After a fault in it, it is added empty, so that the rest of the scene
+ * that names it brings no fault of its own. */
 static pg_status add_named (builder *b, const char *name)
 {
     pg_status status = PG_OK;
@@ -455,7 +457,7 @@ done:
     return status;
 }
 
-/* All places of a scene where a part of a shape may be named. */
+/* Adds the parts of shapes that the input file names directly, at any key that takes the name of a set. */
 static pg_status add_parts (builder *b)
 {
     pg_status status = PG_OK;

@@ -5,12 +5,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Points equally near to one place, at most. */
+/* The most points at equal distance from one position that are found. */
 enum { MOST = 16 };
 /* The points found so far. */
 typedef struct { int point[MOST]; size_t n; } found;
 
-/* Refuses the points that were found already (a pg_refuse). */
+/* Refuses the points that were found already (a callback of type pg_refuse). */
 static int is_found (void *context, const double *place, size_t point)
 {
     const found *f = context;
@@ -38,7 +38,7 @@ static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nea
 }
 
 /* A cell none of whose vertices (or whose centre) is a point is a sliver beyond the kept boxes of the
- * lattice. */
+ * lattice: its volume goes to the nearest points. */
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;

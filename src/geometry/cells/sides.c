@@ -19,7 +19,7 @@ static double slack (const pg_marks *m)
     return 1e-9 * m->size + 2 * pg_rounding (m->cloud->dim, m->low, m->high);
 }
 
-/* A flat surface whose box lies in the plane. */
+/* Is the surface flat, and does its box lie in the plane of the side? */
 static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
 {
     /* Files of meshes round coordinates to six or seven digits. */
@@ -28,7 +28,8 @@ static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
            && fabs (s->high[side / 2] - face) <= tolerance;
 }
 
-/* All nodes within a millionth of the body's size: mesh files round coordinates to six or seven digits. */
+/* Do all nodes of facet f lie within a millionth of the body's size of the plane? Mesh files round
+ * coordinates to six or seven digits. */
 static int nodes_lie_in (const pg_marks *m, size_t f, int side)
 {
     const pg_cells *c = m->cells;
@@ -39,14 +40,14 @@ static int nodes_lie_in (const pg_marks *m, size_t f, int side)
 }
 
 /* Does the body really end in the plane over this face of a lattice cell, or does it only touch the plane
- * there? It must reach the plane at the centre of the face and at one of the places a quarter step aside:
+ * there? It must reach the plane at the centre of the face and at one of the points a quarter step aside:
  * where a round body touches the plane it is missing on all sides, at the end of a flat side only on some. */
 static int body_reaches (const pg_marks *m, size_t f, int side)
 {
     size_t dim = (size_t) m->cells->dim;
     int axis = side / 2, aside = dim > 1 ? 1 << (dim - 1) : 0, reached = aside == 0;
     double face = plane_of (m, side), depth = pg_body_meshes (m->body) ? 1e-6 * m->size : slack (m);
-    /* The last place is the centre. */
+    /* The last position tested is the centre of the face. */
     for (int q = 0; q <= aside; q++) {
         double x[3] = {0};
         int bit = 0;
@@ -77,7 +78,7 @@ int cells_facet_on_side (const pg_marks *m, size_t f, int side)
     return off <= 0.5 * m->cloud->step[side / 2] * (1 + 1e-9) && body_reaches (m, f, side);
 }
 
-/* Half a spacing: points from a file need not lie in the plane itself. */
+/* The tolerance is half a spacing: points from a file need not lie in the plane itself. */
 int cells_point_on_side (const pg_marks *m, size_t i, int side)
 {
     double x = m->cloud->x[i * (size_t) m->cloud->dim + (size_t) side / 2];

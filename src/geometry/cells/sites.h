@@ -6,7 +6,7 @@
 #define PERIGAL_CELLS_SITES_H
 #include "perigal/cells.h"
 
-/* The sites; index (i z, i y, i x) with x fastest. */
+/* Sites of a lattice. Arrays over them have the index (iz, iy, ix), x fastest. */
 typedef struct {
     const pg_lattice *l;
     /* 1: points stand at the centres of cells; 0: at vertices. */

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What lies between two places of the body. A straight way that leaves the body through one face and comes
- * back through a face that looks the other way - across a slot, a gap, to another body, however narrow -
- * parts them; so does one that runs outside for more than half a spacing, unless it is the chord of one
- * smooth surface: there the normals at both ends of the way outside are nearly the same. A body is the
- * faces of its mesh, or shapes that are added and subtracted in turn.
+ * Visibility between two points of the body. A straight line segment that leaves the body through one face
+ * and comes back through a face with an opposed normal - across a slot, a gap, to another body, however
+ * narrow - separates its ends; so does one that runs outside for more than half a spacing, unless it is the
+ * chord of one smooth surface: there the normals at both ends of the part outside are nearly the same. A body
+ * is the faces of its mesh, or shapes that are added and subtracted in turn.
  *
- * Points need not lie in the body exactly: the vertices of a lattice about cells whose centres do may
- * lie beyond its surface. Such a point looks from the nearest place of the body, as if it had been drawn
- * back there, and so belongs to one side of a slot that it lies in. A node of a mesh looks from a place
- * a little way inside its elements, which tells the two nodes apart that lie at one place on both sides
- * of a seam. */
+ * Points need not lie in the body exactly: the vertices of a lattice about cells whose centres do may lie
+ * beyond its surface. Segments from such a point begin at the nearest position in the body, its `eye`, so
+ * that it belongs to one side of a slot that it lies in. The eye of a mesh node lies slightly inside its
+ * elements, which tells the two nodes apart that lie at one position on both sides of a seam. */
 #include "between.h"
 #include "geometry/cloud/body/shape.h"
 #include "geometry/cloud/body/solid.h"
@@ -17,39 +16,41 @@
 #include <math.h>
 #include <string.h>
 
-/* A shape, or the mesh that is the body (shape NULL); its box. */
+/* A shape, or the mesh that is the body (shape NULL); is it added to the body, is it convex; its box, m. */
 typedef struct { const pg_shape *shape; between_faces *faces; int add, convex; double box[6]; } member;
 
 struct pg_between {
     int     dim;
-    /* 1: one shape, or a mesh: where no face is met all is inside. */
+    /* 1: the body is one shape or mesh, so that a segment that meets no face is inside. */
     int     alone;
-    /* Places so near to a surface lie on it, m: a share of the spacing, wherever the body lies, and the
-     * rounding of coordinates far from the origin. */
+    /* Distance within which a point counts as on a surface, m: a share of the spacing, wherever the body
+     * lies, and the rounding of coordinates far from the origin. */
     double  near;
     const pg_body *body;
     const pg_cloud *cloud;
     size_t  n;
     member *member;
-    /* Nearest points, where spacings differ. */
+    /* Search for the nearest point, where spacings differ; else NULL. */
     pg_nearest *nearest;
-    /* Where the points look from, m (cloud.n x dim); NULL: from where they are. */
+    /* Eye of each point, where its segments begin, m (cloud.n x dim); NULL: at the points themselves. */
     double *eye;
 };
 
-/* Normals that part by more than 91 degrees look away from each other; the chord of a smooth surface
- * turns them by less than 60 degrees. Ways outside are long from half a spacing on. */
+/* Cosines between the two normals of a gap: below AWAY (91 degrees) they are opposed, above SMOOTH (60
+ * degrees) the gap is the chord of a smooth surface. Gaps longer than LONG spacings separate. */
 static const double AWAY = -0.02, SMOOTH = 0.5, LONG = 0.5;
-/* How far from a point outside the body is looked for, spacings; how far within it its eye lies, and of
- * nodes of a mesh the share of the way to the middle of their elements. */
+/* REACH: distance within which the body is searched from a point outside, in spacings. WITHIN: depth of its
+ * eye in the body, in spacings. INWARD: share of the distance from a mesh node to the middle of its elements
+ * by which its eye is moved. */
 static const double REACH = 2, WITHIN = 1e-6, INWARD = 1e-5;
-/* How far beside a place on the surface the body is looked for, times `near`. */
+/* Distance from a point on the surface at which the body is tested beside it, in units of `near`. */
 static const double BESIDE = 16;
 /* Lengths and angles that differ less than this, relatively, differ by rounding. */
 static const double EQUAL = 1e-9;
 
 /* ---- one way ------------------------------------------------------------------------------------------- */
-/* Of an alpha shape with a rim a gap of its simplices counts only where it is wider than the rim fills. */
+/* Drops the gaps of an alpha shape that its rim fills: those all of which lies within the rim's width of the
+ * skin. */
 static void fill_rim (between_gaps *g, const pg_shape *s, const between_way *w)
 {
     double rim = pg_shape_alpha (s) ? pg_shape_alpha (s)->rim : 0;
@@ -67,7 +68,8 @@ static void fill_rim (between_gaps *g, const pg_shape *s, const between_way *w)
     if (rim > 0) g->n = kept;
 }
 
-/* The gaps of a member. A mesh beside others may not be met at all, and then is here or is not. */
+/* The gaps of a member. A segment that meets no face of a mesh is entirely inside or entirely outside of
+ * it. */
 static void gaps_of (between_gaps *out, const pg_between *b, const member *m, const between_way *w)
 {
     if (!m->faces && (!m->shape || pg_shape_meshed (m->shape))) {
@@ -95,7 +97,7 @@ static int meets (const pg_between *b, const member *m, const double *low, const
     return 1;
 }
 
-/* The gaps of the body. */
+/* The gaps of the body along a segment; o: the members that can be met (NULL: all are tested). */
 static void gaps_along (between_gaps *out, const pg_between *b, const pg_outlook *o, const between_way *w)
 {
     double low[3], high[3];
@@ -114,7 +116,7 @@ static void gaps_along (between_gaps *out, const pg_between *b, const pg_outlook
     }
 }
 
-/* Does a place lie on a face of a mesh? */
+/* Does point x lie on a face of a mesh? */
 static int on_face (const pg_between *b, const double *x)
 {
     for (size_t i = 0; i < b->n; i++)
@@ -128,11 +130,11 @@ static double spacing_at (const pg_between *b, const double *x)
     return i < 0 ? b->cloud->h : b->cloud->size[i];
 }
 
-/* How far below the middle of a smooth surface its chord is moved: so many times the rise of the surface
- * over the chord, and so much of its length. */
+/* Depth by which the chord of a smooth surface is moved into the body: BELOW_RISE times the rise of the
+ * surface over the chord plus BELOW times the length of the chord. */
 static const double BELOW_RISE = 2, BELOW = 0.02;
 
-/* Does the gap, moved into the body by `depth` against a direction, cross a slot? */
+/* Does the gap, moved into the body by `depth` (m) against the direction `outward`, cross a slot? */
 static int crosses_below (const pg_between *b, const between_gap *g, const between_way *w,
                           const double *outward, double depth)
 {
@@ -144,7 +146,8 @@ static int crosses_below (const pg_between *b, const between_gap *g, const betwe
         below.x[k] = w->x[k] + g->t[0] * w->d[k] - depth * outward[k] / sqrt (size);
         below.d[k] = (g->t[1] - g->t[0]) * w->d[k];
     }
-    gaps_along (&met, b, NULL, &below);                /* which leaves the box of an outlook */
+    /* no outlook: its box does not hold the moved segment */
+    gaps_along (&met, b, NULL, &below);
     for (int i = 0; i < met.n; i++) {
         const between_gap *m = &met.gap[i];
         double turn = 0;
@@ -154,9 +157,9 @@ static int crosses_below (const pg_between *b, const between_gap *g, const betwe
     return 0;
 }
 
-/* A chord of one smooth surface may pass over the mouth of a slot, whose two sides are parted: moved into
- * the body, below the surface, it then crosses the slot. same: cosine between the normals at its ends; at
- * the edge of a mouth one of them may be that of the slot. */
+/* Does a gap like the chord of a smooth surface pass over the mouth of a slot, whose two sides are separated?
+ * Moved into the body, below the surface, it then crosses the slot. same: cosine between the normals at its
+ * ends; at the edge of a mouth one of them may be that of the slot. */
 static int over_a_mouth (const pg_between *b, const between_gap *g, const between_way *w, double same)
 {
     double length = (g->t[1] - g->t[0]) * w->length, mean[3] = { 0 };
@@ -168,7 +171,7 @@ static int over_a_mouth (const pg_between *b, const between_gap *g, const betwee
            || crosses_below (b, g, w, g->normal[1], depth);
 }
 
-/* Does this gap part the ends of the way? */
+/* Does this gap separate the two ends of the segment? */
 static int parts (const pg_between *b, const between_gap *g, const between_way *w)
 {
     double slack = 4 * w->near / w->length, wide = (g->t[1] - g->t[0]) * w->length, same = 0, middle[3];
@@ -180,7 +183,7 @@ static int parts (const pg_between *b, const between_gap *g, const between_way *
     }
     int narrow = same >= AWAY && wide <= (1 + EQUAL) * LONG * spacing_at (b, middle);
     if (same > SMOOTH - EQUAL || narrow) return over_a_mouth (b, g, w, same);
-    /* A way along a face runs in the body. */
+    /* A segment along a face runs in the body. */
     return wide <= 2 * w->near || !on_face (b, middle);
 }
 
@@ -193,7 +196,7 @@ static int way_from (between_way *w, const pg_between *b, const double *x, const
     return w->length > 8 * b->near;
 }
 
-/* Both ways round the same: from the end with the smaller coordinates. */
+/* The segment always starts at the end with the smaller coordinates, so that x and y may be exchanged. */
 int pg_between_parted (const pg_between *b, const pg_outlook *o, const double *x, const double *y)
 {
     between_way w;
@@ -239,7 +242,7 @@ int pg_between_look (const pg_between *b, const double *low, const double *high,
     for (size_t i = 0; i < b->n; i++) {
         const member *m = &b->member[i];
         if (!meets (b, m, low, high)) continue;
-        /* what was before is filled */
+        /* an added shape that fills the box makes all members before it irrelevant */
         if (m->add && m->convex && holds (b, m, low, high)) o->n = o->all = 0;
         if (o->n == PG_OUTLOOK) o->all = 1;
         else o->member[o->n++] = (int) i;
@@ -262,16 +265,16 @@ static void direction (int dim, int c, double *d)
 
 static int directions (int dim) { return 2 * dim + (1 << dim); }
 
-/* Has the body shapes with faces of their own, which do not tell how deep within them a place is? */
+/* Has the body meshed shapes? Their distance function does not tell how deep inside them a point is. */
 static int meshed (const pg_between *b)
 {
     for (size_t i = 0; i < b->n; i++) if (b->member[i].faces) return 1;
     return 0;
 }
 
-/* Does a place lie in the body, and where does it look from? A place on the surface looks from just inside
- * it. In the end of a bore or slot that is as long as the body is thick there is surface on which a place
- * has no body beside it: it lies outside. */
+/* Does point x lie in the body? If it lies on the surface, `eye` becomes a position just inside. In the end
+ * of a bore or slot that is as long as the body is thick a point of the surface may have no body beside it:
+ * it lies outside. */
 static int stands (const pg_between *b, const double *x, double *eye)
 {
     double sum[3] = { 0 }, size = 0, place[3];
@@ -293,11 +296,12 @@ static int stands (const pg_between *b, const double *x, double *eye)
     return 1;
 }
 
-/* The nearest places of the body as seen from a point: how far the nearest is, over REACH spacings, one of
- * the equally near ones, how many these are, and the sum of the ways to them, m. */
+/* The positions in the body nearest to a point outside: distance of the nearest in units of REACH spacings,
+ * one of the equally near ones, how many these are, and the sum of the vectors to them, m. */
 typedef struct { double best, found[3], sum[3]; int n; } outcome;
 
-/* Looks for the body along d, a unit vector, from `from`, a place outside; x: the point that looks. */
+/* Searches the body along the unit vector d from `from`, a position outside; x: the point whose eye is
+ * sought. */
 static void seek_along (const pg_between *b, const double *x, const double *from, const double *d, double h,
                         outcome *o)
 {
@@ -319,7 +323,7 @@ static void seek_along (const pg_between *b, const double *x, const double *from
     }
 }
 
-/* Along the axes and the diagonals. */
+/* Searches the body along all axes and diagonals. */
 static void seek (const pg_between *b, const double *x, const double *from, double h, outcome *o)
 {
     for (int c = 0; c < directions (b->dim); c++) {
@@ -329,9 +333,9 @@ static void seek (const pg_between *b, const double *x, const double *from, doub
     }
 }
 
-/* Among several places equally near none is taken by its direction, or by rounding, but the place that lies
- * along the sum of the ways to them, such as a corner between two faces. On opposite sides, as from the
- * middle of a slot, they have no such sum: then the first one. */
+/* Of several equally near positions none is preferred by its direction, or by rounding: the one along the sum
+ * of the vectors to them is taken, such as a corner between two faces. On opposite sides, as from the middle
+ * of a slot, the sum vanishes: the first one stays. */
 static void settle (const pg_between *b, const double *x, double h, outcome *o)
 {
     double size = 0, d[3];
@@ -367,7 +371,7 @@ const double *pg_between_eye_of (const pg_between *b, size_t i)
     return (b->eye ? b->eye : b->cloud->x) + i * (size_t) b->dim;
 }
 
-/* Nodes on the faces of a mesh look from a little way inside. */
+/* Moves the eyes of nodes on the faces of a mesh slightly inside their elements. */
 static pg_status look_inward (pg_between *b, const pg_mesh_body *part)
 {
     pg_status status = PG_OK;
@@ -378,7 +382,7 @@ static pg_status look_inward (pg_between *b, const pg_mesh_body *part)
     int *held = NULL;
     PG_ALLOC (b->eye, c->n * dim);
     PG_ALLOC (sum, m->nnode * 4);
-    /* the point at a node, from 1; 0: held by other ranks */
+    /* by number in the whole body: the point on this rank, from 1; 0: other ranks hold it */
     PG_ALLOC (held, m->nnode);
     for (size_t i = 0; i < c->n; i++) held[pg_cloud_number (c, i)] = (int) i + 1;
     for (size_t e = 0; e < m->n; e++) {
@@ -404,7 +408,7 @@ done:
     return status;
 }
 
-/* Of the points outside the body or on its surface, if there are any. */
+/* Moves the eyes of points outside the body or on its surface into it, if there are such points. */
 static pg_status draw_back (pg_between *b)
 {
     pg_status status = PG_OK;
@@ -506,7 +510,8 @@ typedef struct {
     size_t *kept;
 } sifting;
 
-/* The box of a centre, here at `place`, and of its family: where the nodes are or, eyes 1, look from. */
+/* Bounding box of `place`, the position or eye of centre i, and of its family: of the points or (eyes 1) of
+ * their eyes. */
 static void box_of (const sifting *s, size_t i, const double *place, int eyes, double *low, double *high)
 {
     size_t dim = (size_t) s->b->dim;
@@ -518,7 +523,8 @@ static void box_of (const sifting *s, size_t i, const double *place, int eyes, d
     }
 }
 
-/* Each centre writes into its own part of the list. */
+/* Removes the separated points from the families of centres first .. last - 1; each writes into its own part
+ * of the list. */
 static void sift_those (void *context, size_t first, size_t last, int thread)
 {
     const sifting *s = context;
@@ -536,7 +542,8 @@ static void sift_those (void *context, size_t first, size_t last, int thread)
         if (s->own && s->own[i] >= 0)
             memcpy (eye, pg_between_eye_of (s->b, (size_t) s->own[i]), dim * sizeof *eye);
         else pg_between_eye (s->b, (s->eye ? s->eye : s->centre) + i * dim, eye);
-        /* all that any two of them can meet, so that they are asked the same from either end */
+        /* all that a segment between any two of them can meet, so that the answer is the same from either
+         * end */
         box_of (s, i, eye, 1, low, high);
         if (!pg_between_look (s->b, low, high, &o)) continue;
         for (size_t e = begin; e < s->f->start[i + 1]; e++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a straight way leaves a mesh and comes back: it meets the faces of the surface, flat pieces in a
- * tree of boxes, with the sense of their normals. Two faces at one place, as between nodes that are there
- * twice, make a gap without a width.
+ * Where a line segment leaves a mesh and comes back: its intersections with the faces of the surface, flat
+ * pieces in a tree of boxes, with the sense of their normals. Two faces at one position, as between
+ * coincident nodes, make a gap of zero width.
  *
  * Pieces are put in an order in which neighbours lie near each other, GROUP at a time in a block, as
  * many blocks in a larger one, and so on up to one block that holds all (as in crack_index.c). */
@@ -51,7 +51,8 @@ done:
     return status;
 }
 
-/* A face by its corners and, of second order, the middles of its edges and its own. */
+/* Adds a face as flat pieces between its corners and, for second order, the middles of its edges and its own
+ * middle. */
 static pg_status add_face (between_faces *f, pg_element kind, const double *x)
 {
     pg_status status = PG_OK;
@@ -78,7 +79,7 @@ static pg_status add_face (between_faces *f, pg_element kind, const double *x)
     }
     for (int k = 0; k < 3; k++) {
         if (t->nodes == 9) middle[k] = x[8 * dim + (size_t) k];
-        else if (halved)                               /* of the eight shape functions at the middle */
+        else if (halved)                               /* values of the eight shape functions at the middle */
             for (int c = 0; c < 8; c++) middle[k] += (c % 2 ? 0.5 : -0.25) * ring[c][k];
         else for (int c = 0; c < 4; c++) middle[k] += 0.25 * ring[c][k];
     }
@@ -89,10 +90,11 @@ done:
 }
 
 /* ---- faces that nothing lies in front of --------------------------------------------------------------- */
-/* How far the surface reaches in some directions, of which a face that has one of them is behind or not. */
+/* For each face normal met so far: the largest n.x over the nodes of the surface, m. */
 typedef struct { int n; double normal[DIRECTIONS][3], reach[DIRECTIONS]; } directions;
 
-/* How far the nodes of the surface reach along the normal, n.x; INFINITY: too many directions. */
+/* The largest n.x over the nodes of the surface along a normal, m; INFINITY: there are too many
+ * directions. */
 static double reach_along (directions *d, int dim, const double *normal, const pg_mesh *mesh,
                            const unsigned char *on)
 {
@@ -112,7 +114,7 @@ static double reach_along (directions *d, int dim, const double *normal, const p
     return d->reach[d->n++] = most;
 }
 
-/* Drops the pieces that the whole surface lies behind. */
+/* Drops the pieces whose plane has the whole surface behind it. */
 static void drop_outer (between_faces *f, const pg_mesh *mesh, const unsigned char *on)
 {
     directions d = { 0 };
@@ -246,14 +248,15 @@ int between_faces_near (const between_faces *f, const double *low, const double 
     return search (f, f->levels - 1, 0, low, high, stop, NULL);
 }
 
-/* Does a place in the plane of a piece lie in it, or within `near` of it? On a line pieces are points. */
+/* Does q, a point in the plane of a piece, lie in the piece, or within `near` of it (m)? In 1D pieces are
+ * points. */
 static int covers (const between_faces *f, size_t piece, const double *q, double near)
 {
     size_t dim = (size_t) f->dim;
     const double *x = f->x + piece * dim * dim, *n = f->plane + 4 * piece;
     for (size_t c = 0; dim > 1 && c < dim; c++) {
         const double *a = x + c * dim, *b = x + (c + 1) % dim * dim;
-        double in[3] = { 0 }, off = 0, size = 0;       /* in the plane, from the edge inwards */
+        double in[3] = { 0 }, off = 0, size = 0;       /* direction in the plane, from the edge inwards */
         if (dim == 2) in[0] = b[0] - a[0], in[1] = b[1] - a[1];
         else
             for (int k = 0; k < 3; k++) {
@@ -283,7 +286,8 @@ int between_faces_touch (const between_faces *f, const double *x, double near)
     return search (f, f->levels - 1, 0, low, high, touches, &t);
 }
 
-/* Where the way passes a piece: at t, along its normal (leaves) or against it; rate: n.d. */
+/* An intersection of the segment with a piece, at t; rate: n.d, positive where the segment leaves the
+ * body. */
 typedef struct { double t, rate; const double *normal; } event;
 typedef struct { const between_way *w; int n, full; event at[EVENTS]; } events;
 
@@ -309,7 +313,8 @@ static int meet (void *context, const between_faces *f, size_t piece)
     return 0;
 }
 
-/* Of the events first .. end - 1 that which leaves (sense 1) or enters (-1) most squarely; -1: none does. */
+/* Returns which of the events first .. end - 1 leaves (sense 1) or enters (-1) at the steepest angle; -1:
+ * none does. */
 static int squarest (const events *e, int first, int end, int sense)
 {
     int best = -1;
@@ -324,8 +329,8 @@ static void set_end (between_gap *g, int side, const event *e)
     memcpy (g->normal[side], e->normal, sizeof g->normal[side]);
 }
 
-/* Events at one place count together: edges are met with two pieces. Where a way inside both leaves and
- * enters there, two faces touch. */
+/* Events at one position count together: an edge belongs to two pieces. Where a segment in the body both
+ * leaves and enters there, two faces touch. */
 void between_faces_gaps (between_gaps *out, const between_faces *f, const between_way *w)
 {
     events e = { .w = w };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a straight way runs outside of a shape: in closed form, by cutting the way at planes and at round
- * surfaces; of polygons by the edges that it meets. And lists of gaps: their intersection and union. */
+ * Where a line segment runs outside of a shape: in closed form, by clipping the segment at planes and at
+ * round surfaces; for polygons by the edges that it crosses. And lists of gaps: their intersection and
+ * union. */
 #include "between.h"
 #include "geometry/cloud/search/polygon.h"
 #include <math.h>
@@ -67,7 +68,7 @@ void between_gaps_turn (between_gaps *out, const between_gaps *a)
 }
 
 /* ---- shapes that are convex ---------------------------------------------------------------------------- */
-/* The part of a way inside, from t[0] to t[1], with the normals of the shape there. */
+/* The part of a segment inside a shape, from t[0] to t[1], with the normals of the shape there. */
 typedef struct { double t[2], normal[2][3]; } chord;
 
 static void clip_to (chord *c, int side, double t, const double *normal)
@@ -77,7 +78,7 @@ static void clip_to (chord *c, int side, double t, const double *normal)
     memcpy (c->normal[side], normal, sizeof c->normal[side]);
 }
 
-/* Keeps what lies behind the plane n.x = level, n a unit vector. */
+/* Clips the chord to what lies behind the plane n.x = level (m), n a unit vector. */
 static void clip_plane (chord *c, const between_way *w, const double *n, double level)
 {
     double off = -level, rate = 0;
@@ -86,7 +87,7 @@ static void clip_plane (chord *c, const between_way *w, const double *n, double 
     else if (off > 0) c->t[0] = INFINITY, c->t[1] = -INFINITY;
 }
 
-/* Keeps what lies within `radius` of a place or, with an axis, of a line. */
+/* Clips the chord to what lies within `radius` (m) of a point or, with an axis, of a line. */
 static void clip_round (chord *c, const between_way *w, const double *centre, const double *axis,
                         double radius)
 {
@@ -116,7 +117,7 @@ static void clip_round (chord *c, const between_way *w, const double *centre, co
 }
 
 /* ---- polygons ------------------------------------------------------------------------------------------ */
-/* Is it convex? */
+/* Is the polygon convex? */
 static int polygon_convex (const pg_shape *s)
 {
     int left = 0, right = 0;
@@ -129,7 +130,7 @@ static int polygon_convex (const pg_shape *s)
     return !(left && right);
 }
 
-/* Gaps of a polygon along the way in its plane, moved sideways by `off` (m). */
+/* Gaps of a polygon along the segment in its plane, moved sideways by `off` (m). */
 static void polygon_gaps (between_gaps *out, const pg_shape *s, const between_way *w, double off)
 {
     double length = hypot (w->d[0], w->d[1]), sense = pg_polygon_area (s->nvertex, s->vertex) > 0 ? 1 : -1;
@@ -161,7 +162,7 @@ static void polygon_gaps (between_gaps *out, const pg_shape *s, const between_wa
     between_gaps_turn (out, &inside);
 }
 
-/* Of a way on an edge either side of it decides, in favour of what belongs to the body. */
+/* Gaps of a polygon. If the segment lies on an edge, both sides of it are tried and the body is favoured. */
 static void polygon (between_gaps *out, const pg_shape *s, const between_way *w)
 {
     between_gaps a, b;
@@ -178,7 +179,7 @@ static void polygon (between_gaps *out, const pg_shape *s, const between_way *w)
 }
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
-/* The gaps beside a chord. */
+/* The gaps before and after a chord. */
 static void gaps_of (between_gaps *out, const chord *c)
 {
     between_gaps inside = { 0 };
@@ -189,7 +190,7 @@ static void gaps_of (between_gaps *out, const chord *c)
     between_gaps_turn (out, &inside);
 }
 
-/* A polygon and two planes across the axis z. */
+/* Gaps of a prism: of a polygon and of two planes normal to the axis z. */
 static void prism (between_gaps *out, const pg_shape *s, const between_way *w, double low, double high)
 {
     chord c = { .t = { -INFINITY, INFINITY } };

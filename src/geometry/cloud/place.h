@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what points of a lattice, of a file and of a mesh share. */
+ * Private: what clouds of points from a lattice, from a file and from a mesh share. */
 #ifndef PERIGAL_CLOUD_PLACE_H
 #define PERIGAL_CLOUD_PLACE_H
 #include "geometry/cloud/search/random.h"
 #include "perigal/cloud.h"
 
-/* Fills low and high of the cloud. */
+/* Fills low and high of the cloud, its bounding box, m. */
 void      pg_place_bounds (pg_cloud *cloud);
 #endif
