@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Families { j : |x_j - c_i| <= reach }: the points are sorted into boxes a spacing wide (boxes.h). Centres
  * that follow each other and lie within one spacing, such as the Gauss points of a cell, share one list of
- * candidates, and each measures its distances from all of them. Points of unequal spacings see, and are
- * seen, unequally far: they go into boxes by classes, each up to half as far again as the one before, so
- * that boxes fit their points. Centres know nothing of each other: any number of threads finds the same
+ * candidates, and each measures its distances from all of them. Points of unequal spacings have unequal
+ * reach: they go into boxes by classes, each with a reach up to half as large again as the one before, so
+ * that boxes fit their points. Centres are independent of each other: any number of threads finds the same
  * families.
  *
  * Points so thinly scattered that their boxes would mostly be empty are left to the k-d tree of
@@ -19,14 +19,14 @@ enum { CLASSES = 40 };
 
 struct pg_family_search {
     const pg_cloud *cloud;
-    /* Of a family, and the distance up to which points belong to it, m. */
+    /* Nominal reach of families; the distance up to which points belong to them, with its margin, m. */
     double   reach, edge;
     pg_nearness near;
     pg_boxes boxes[CLASSES];
     size_t   n;
     /* Width of the finest boxes, m: how far apart centres may lie that share candidates. */
     double   width[3];
-    /* Largest distance of a member, of a ball its square: of each point; NULL: `limit` for all. */
+    /* own: largest distance at which each point is a member (balls: its square); NULL: `limit` for all. */
     double  *own, limit;
     /* Half-widths of the box around the support of each point, m (n x dim); NULL: all have the same. */
     double  *half;
@@ -61,15 +61,15 @@ done:
     return status;
 }
 
-/* How far point i is seen, m. */
+/* Largest distance from a centre at which point i belongs to its family, m. */
 static double reach_of (const pg_family_search *s, size_t i)
 {
     double far = s->edge;
     return s->cloud->size ? far * pg_cloud_ratio (s->cloud, i) : far;
 }
 
-/* Can a centre in the box low .. high see point i? box NULL: there is none. Few centres, such as the places
- * around the tip of a crack, then cost one look at every point of the body. */
+/* Can point i belong to the family of a centre in the box (low, high: 3 + 3 numbers, m)? NULL: no limit. Few
+ * centres, such as positions around the tip of a crack, then cost one test for every point of the body. */
 static int meets_box (const pg_family_search *s, size_t i, const double *box)
 {
     double far = reach_of (s, i) * (1 + 1e-7);
@@ -81,8 +81,8 @@ static int meets_box (const pg_family_search *s, size_t i, const double *box)
 }
 
 /* Width of the boxes along each axis, m: the step of the lattice, or the spacing; of a cloud that has neither
- * as if its points filled their surroundings evenly. Not below an eighth of the reach, for many empty boxes
- * would be looked at. */
+ * the spacing of as many points spread evenly over its bounding box. Not below an eighth of the reach, as
+ * many empty boxes would be visited. */
 static void choose_width (const pg_family_search *s, double least, double *width)
 {
     const pg_cloud *c = s->cloud;
@@ -110,7 +110,7 @@ static int class_of (double reach, double least)
     return k < CLASSES - 1 ? (int) k : CLASSES - 1;
 }
 
-/* One class: its points in a list, and their boxes. */
+/* Sorts the points of one class into boxes. */
 static pg_status sort_class (pg_family_search *s, int class, double least, const unsigned char *member)
 {
     pg_status status = PG_OK;
@@ -137,7 +137,7 @@ done:
 }
 
 /* Half-widths of the box around the support of point i, m (dim). An ellipse { z : z' A z <= far^2 } reaches
- * far (A^-1)_kk^(1/2) along axis k. A little more, for they are rounded. */
+ * far (A^-1)_kk^(1/2) along axis k. Slightly enlarged against rounding. */
 static void measure_box (const pg_family_search *s, size_t i, double *half)
 {
     int dim = s->cloud->dim;
@@ -153,11 +153,12 @@ static void measure_box (const pg_family_search *s, size_t i, double *half)
     }
 }
 
-/* All points, or those that centres in a box (low, high: 3 + 3 numbers, m) can see. */
+/* Sorts into boxes all points, or those that can belong to families of centres in `box` (3 + 3 numbers,
+ * m). */
 static pg_status sort_points (pg_family_search *s, const double *box)
 {
     pg_status status = PG_OK;
-    unsigned char *member = NULL;                      /* class + 1; 0: seen from nowhere */
+    unsigned char *member = NULL;                      /* class + 1; 0: in no family */
     double least = INFINITY;
     int most = -1;
     size_t n = s->cloud->n;
@@ -217,12 +218,12 @@ void pg_family_search_free (pg_family_search **search)
 }
 
 /* ---- reading off --------------------------------------------------------------------------------------- */
-/* Members of families that follow each other, in a chain of such pieces. */
+/* A block of members of consecutive families; the blocks of a thread form a chain. */
 typedef struct piece { struct piece *next; size_t n, room; int member[]; } piece;
 
-/* What a thread needs and has found. Candidates of a group of centres, ascending: their numbers, positions
- * axis by axis (m), how far away they may be, and how far they are from the centre at work, all with room for
- * `most`; of stretched supports also their measures, the entries of the symmetric matrix A of pg_cloud row by
+/* Workspace and results of a thread. Candidates of a group of centres, ascending: their numbers, positions
+ * axis by axis (m), limits of their distances, and distances from the current centre, all with room for
+ * `most`; for stretched supports also their metrics, the entries of the symmetric matrix A of pg_cloud row by
  * row, each an array as long. bits: one for each point of the cloud, all 0 between groups. */
 typedef struct {
     size_t n, most;
@@ -241,7 +242,8 @@ typedef struct {
     candidates *of;
 } finding;
 
-/* Centres of a group at most; members in a piece at least; points of a small cloud. */
+/* GROUP: the most centres of a group. PIECE: the least room of a piece, in members. FEW: a cloud of at most
+ * so many points is small. */
 enum { GROUP = 256, PIECE = 1 << 14, FEW = 2048 };
 
 /* Ascending order by Shell's method with Knuth's steps: insertion sort, by steps that shrink. */
@@ -282,8 +284,8 @@ static void ascend (size_t n, int *a, uint64_t *bits)
 
 /* The end of the group that begins with centre `first`: as many as lie within the width of a box along each
  * axis, within three tenths of it along the last one, since thin groups have fewer candidates; low, high: the
- * box around them, m. Where the points have supports of their own the group may be twice as wide: whom nobody
- * in the box around it sees is left out anyway. */
+ * box around them, m. Where the points have supports of their own the group may be twice as wide: points that
+ * do not reach its box are left out later (leave_out). */
 static size_t group_of (const finding *f, size_t first, size_t last, double *low, double *high)
 {
     size_t dim = (size_t) f->s->cloud->dim, end = first;
@@ -323,8 +325,8 @@ done:
     return status;
 }
 
-/* Of points whose own reach differs from that of their boxes those stay that somebody in the box low .. high
- * can see, in the box around their own support: its half-widths are `half` (n x dim), m. */
+/* Of n candidates keeps those whose supports reach the box low .. high of the centres (m), by the box around
+ * each support with the half-widths s->half. Returns how many. */
 static size_t leave_out (const pg_family_search *s, const double *low, const double *high, size_t n,
                          int *item)
 {
@@ -339,7 +341,7 @@ static size_t leave_out (const pg_family_search *s, const double *low, const dou
     return s->half ? kept : n;
 }
 
-/* Whom anybody in the box may see, in ascending order, with all that is asked of them. */
+/* Collects the candidates for all centres in the box (m), ascending, with positions, limits and metrics. */
 static pg_status look_around (const finding *f, const double *low, const double *high, candidates *c)
 {
     pg_status status = PG_OK;
@@ -366,8 +368,8 @@ done:
     return status;
 }
 
-/* Measures how far the candidates are. Loops of known length over all of them, several at a time; the same
- * operations in any instruction set. */
+/* Distances of the candidates from `at` (m; radial: squared, m^2). Loops of known length over all of them,
+ * several at a time; the same operations in any instruction set. */
 #define INLINE static inline __attribute__ ((always_inline))
 INLINE void measure_those (const candidates *c, int dim, int shape, const double *at)
 {
@@ -382,7 +384,7 @@ INLINE void measure_those (const candidates *c, int dim, int shape, const double
     }
 }
 
-/* Squared distances z' A z of the candidates, m^2, by the measures A of their stretched supports; summed over
+/* Squared distances z' A z of the candidates, m^2, by the metrics A of their stretched supports; summed over
  * the axes in the order of pg_cloud_length2, so that the tree of family_tree.c agrees about the edge. */
 INLINE void measure_anisotropic (const candidates *c, int dim, const double *at)
 {
@@ -429,8 +431,8 @@ done:
     return status;
 }
 
-/* The families of the centres first .. last - 1 of a thread: the number of members of each, at the place
- * where it will end, and the members, ascending as the candidates are. */
+/* Finds the families of the centres first .. last - 1: the number of members of each goes to start[i + 1],
+ * the members, ascending as the candidates are, to the pieces of the thread. */
 static void find_those (void *context, size_t first, size_t last, int thread)
 {
     const finding *f = context;
@@ -454,7 +456,7 @@ static void find_those (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* The pieces of all threads in one list; they are freed on the way. */
+/* Joins the pieces of all threads in one list; frees them on the way. */
 static void join_pieces (pg_family *out, size_t parts, candidates *of)
 {
     size_t at = 0;
@@ -465,7 +467,8 @@ static void join_pieces (pg_family *out, size_t parts, candidates *of)
         }
 }
 
-/* One pass: how many members there are is known when all are found, so that they wait in pieces. */
+/* Searches in one pass: the number of members is known only when all are found, so that they are kept in
+ * pieces until then. */
 pg_status pg_family_find (pg_family *out, const pg_family_search *s, size_t n, const double *centre,
                           int threads)
 {
@@ -479,7 +482,7 @@ pg_status pg_family_find (pg_family *out, const pg_family_search *s, size_t n, c
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (f.of, parts);
     pg_parallel (threads, n, find_those, &f);
-    /* Messages of other threads do not reach this one. */
+    /* Error messages of other threads are not available in this one. */
     for (size_t t = 0; t < parts; t++)
         if (f.of[t].status != PG_OK) PG_FAIL (f.of[t].status, "no memory for families of %zu places", n);
     for (size_t i = 0; i < n; i++) out->start[i + 1] += out->start[i];

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* ---- who belongs to a family --------------------------------------------------------------------------- */
-/* One pass over all points. */
+/* State of one pass over all points. */
 typedef struct {
     /* Tree of the centres. */
     const pg_tree *tree;
@@ -17,15 +17,15 @@ typedef struct {
     /* Largest distance of a member (radial: its square). */
     double  limit;
     int     shape, closed;
-    /* For each centre the place of its next member; counts up. */
+    /* For each centre the index in `node` of its next member; counts up. */
     size_t *next;
     /* Members of all families; NULL in the counting pass. */
     int    *node;
-    /* Box of the centres, m: points beyond their reach of it see none. */
+    /* Bounding box of the centres, m: points farther from it than their reach belong to no family. */
     double  low[3], high[3];
-    /* The point whose turn it is: its position and number. */
+    /* The visiting point: its position (m) and number. */
     const double *x;  int j;
-    /* The points; NULL: their supports are balls. */
+    /* The cloud where supports are ellipsoids; NULL: they are balls. */
     const pg_cloud *anisotropic;
 } search;
 
@@ -58,8 +58,8 @@ static void join (void *context, size_t first, size_t last)
     }
 }
 
-/* Can the visiting point be within its reach of a centre? Few centres, such as the places around the tip of a
- * crack, are then found without a walk down the tree for every point of the body. */
+/* Can the visiting point be within its reach of a centre? Few centres, such as positions around the tip of a
+ * crack, are then found without a search of the tree for every point of the body. */
 static inline int meets_box (const search *s, int dim)
 {
     for (int k = 0; k < dim; k++)
@@ -109,7 +109,7 @@ pg_status pg_family_by_tree (pg_family *out, const pg_cloud *cloud, size_t n, co
     out->n = n;
     /* First pass: numbers of members. */
     visit_points (&s, cloud, far);
-    /* next becomes the place of the first member of each family. */
+    /* next becomes the index of the first member of each family. */
     for (size_t i = 0; i < n; i++) {
         out->start[i + 1] = out->start[i] + s.next[i];
         s.next[i] = out->start[i];

@@ -127,7 +127,8 @@
                "in the middle of their cells; 0 for the nodes of a mesh, which lie on its surface." \
     }
 
-/* Each row is one key of a scene: path, kind, unit, range, default, group and the text of `perigal help`. */
+/* Each row is one key of the input file: path, kind, unit, range, default, group and the text of `perigal
+ * help`. */
 static const pg_key keys[] = {
     /* Where points come from: a body of shapes, a file of points, or a mesh (group "origin"). */
     { .path = "body",

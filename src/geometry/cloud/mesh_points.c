@@ -3,7 +3,7 @@
  *
  * The sum of the volumes is the volume of the elements. The spacing of a point is the mean length of the
  * edges at its node, but at least 0.6 of the longest one: with a horizon of 1.7 spacings both ends of every
- * edge see each other, however graded the mesh is, so that neighbouring points are always coupled. Supports
+ * edge are neighbours, however graded the mesh is, so that neighbouring points are always coupled. Supports
  * may instead be ellipses that are stretched as the elements at a point are (doc/method.md, Anisotropic
  * supports). */
 #include "place.h"
@@ -25,7 +25,7 @@ static pg_element straight (pg_element kind)
     return kind;
 }
 
-/* Looks for elements of second order whose last node is a point. */
+/* Do mid-edge nodes carry points? Looks for elements of second order whose last node is a point. */
 int pg_mesh_body_halved (const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;
@@ -110,7 +110,8 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
     }
 }
 
-/* Part of the longest edge at a node: 1.7 times it passes the other end of the edge. */
+/* Least spacing as a share of the longest edge at a point: a horizon of 1.7 spacings then exceeds that
+ * edge. */
 static const double edge_reach = 0.6;
 
 /* Local spacings and their mean; local = 0: only the mean is kept. */
@@ -185,8 +186,8 @@ done:
     return status;
 }
 
-/* A = l^2 G^-1 with the largest eigenvalue l^2 of G, and the spacing l; G of an element that is flat to
- * rounding counts as PG_STRETCH_MOST times as long as wide. */
+/* The metric A = l^2 G^-1 of a support with the largest eigenvalue l^2 of G, and the spacing l (m); G of an
+ * element that is flat to rounding counts as PG_STRETCH_MOST times as long as wide. */
 static void measure_of (int dim, const double *G, double *A, double *length)
 {
     double lambda[3], V[9];
@@ -202,9 +203,9 @@ static void measure_of (int dim, const double *G, double *A, double *length)
     }
 }
 
-/* Spacings and measures of supports that are stretched as the elements at a point are: their second moment
+/* Spacings and metrics of supports that are stretched as the elements at a point are: their second moment
  * gives the axes, and the spacing grows until every edge at the point is at most 1 / edge_reach spacings long
- * in its measure, so that with a horizon of 1.7 both of its ends see each other. */
+ * in its metric, so that with a horizon of 1.7 both of its ends are neighbours. */
 static pg_status place_measures (pg_cloud *c, const pg_mesh_body *b, int corners)
 {
     pg_status status = PG_OK;

@@ -41,7 +41,7 @@ long pg_nearest_find (const pg_nearest *nearest, const double *place, pg_refuse 
 typedef struct {
     const pg_tree *tree;
     const double *place;
-    double away;                                       /* how far points may be, m */
+    double away;                                       /* largest distance of points to collect, m */
     pg_refuse refuse;  void *context;
     size_t n, *point;
 } collection;

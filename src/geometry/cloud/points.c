@@ -54,8 +54,8 @@ done:
 }
 
 /* ---- the cloud ----------------------------------------------------------------------------------------- */
-/* Positions and volumes. Only sites with kept cells all around are moved, so that the boundary stays; by how
- * much follows from their number in the whole lattice. */
+/* Writes positions and volumes. Only sites with kept cells all around are shifted (perturb), so that the
+ * boundary stays; the shift follows from their number in the whole lattice. */
 static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s, double amount, uint64_t seed)
 {
     pg_status status = PG_OK;
@@ -96,7 +96,7 @@ void pg_place_bounds (pg_cloud *c)
     }
 }
 
-/* Points that lie outside the shapes that are to be their surface. */
+/* Reports points that lie outside the shapes that are to be their surface. */
 static pg_status check_inside (const pg_cloud *c, const pg_body *body, const pg_scene *scene)
 {
     size_t out = 0, first = 0, dim = (size_t) c->dim;
@@ -112,7 +112,7 @@ static pg_status check_inside (const pg_cloud *c, const pg_body *body, const pg_
     return pg_scene_verdict (scene);
 }
 
-/* 1 in space. */
+/* Thickness in 2D (m), cross section in 1D (m^2); 1 in 3D. */
 static double thickness_of (int dim, const pg_scene *scene)
 {
     return dim == 3 ? 1 : pg_scene_number (scene, dim == 2 ? "thickness" : "cross_section");
@@ -124,9 +124,9 @@ static int is_itself (void *context, const double *place, size_t point)
     return point == *(const size_t *) context;
 }
 
-/* Volumes must be of the size of the distances: the median, over a sample, of a point's volume over that of a
- * cube (square) as wide as its nearest neighbour is away is 1 on a lattice and some units among random
- * points. Thousands are a wrong unit or a wrong column. */
+/* Checks that volumes fit the distances: the median, over a sample, of a point's volume over that of a cube
+ * (square) as wide as its nearest neighbour is away is 1 on a lattice and some units among random points.
+ * Thousands are a wrong unit or a wrong column. */
 static pg_status check_volumes (const pg_cloud *c, const pg_scene *scene)
 {
     enum { SAMPLE = 1000 };
@@ -162,7 +162,7 @@ done:
     return status;
 }
 
-/* h from the mean volume of the points. */
+/* Reads the points of a file; their spacing h follows from the mean volume. */
 static pg_status from_file (pg_cloud *c, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -203,7 +203,7 @@ static pg_status read_grid (grid *g, const pg_scene *scene)
     return pg_scene_verdict (scene);
 }
 
-/* A spacing that is too fine is a fault of the scene. */
+/* Turns the failure PG_E_LIMIT of a lattice into an error of the input file: the spacing is too fine. */
 static pg_status judge_fit (pg_status status, const grid *g, const pg_body *body, const pg_scene *scene)
 {
     double cells = 1;
@@ -215,7 +215,7 @@ static pg_status judge_fit (pg_status status, const grid *g, const pg_body *body
     return pg_scene_verdict (scene);
 }
 
-/* A spacing so coarse that no cell has its centre in the body is a fault of the scene. */
+/* Reports a spacing so coarse that no cell has its centre in the body. */
 static pg_status check_cells (const pg_lattice *l, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -280,7 +280,7 @@ done:
     return status;
 }
 
-/* The points of all ranks, each of which must have some. */
+/* Counts the points of all ranks, each of which must own some. */
 static pg_status count_all (pg_subdomain *d)
 {
     pg_status status = PG_OK;
@@ -293,7 +293,8 @@ done:
     return status;
 }
 
-/* `lattice: cells` puts points at centres, else at vertices. part: of this rank alone. */
+/* `lattice: cells` puts points at centres, else at vertices. part 1: builds only the part of this rank, with
+ * a layer of ghosts of `width`, m. */
 static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, const pg_scene *scene,
                                int part, double width)
 {
@@ -326,7 +327,7 @@ done:
     return status;
 }
 
-/* The box of all points, of all ranks. */
+/* Finds the bounding box of the points of all ranks. */
 static pg_status bound_all (pg_cloud *c)
 {
     pg_status status = PG_OK;
@@ -339,7 +340,7 @@ done:
     return status;
 }
 
-/* Either from a file or from a lattice; on failure nothing remains. */
+/* Builds the cloud from a file or from a lattice; on failure nothing remains. */
 static pg_status build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
                         int part, double width)
 {
@@ -379,7 +380,7 @@ static pg_part_size size_of (const pg_subdomain *d)
                             (double) d->halo.send_first[d->halo.n] };
 }
 
-/* Of points of a file or a mesh. */
+/* Sizes of the parts of all ranks for points of a file or a mesh. */
 static pg_status parts_of_file (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
                                 int size)
 {
@@ -401,7 +402,8 @@ done:
     return status;
 }
 
-/* Of a lattice part by part as each rank would build it, so that no more than one of them is in memory. */
+/* On a lattice the parts are built one after the other as each rank would do, so that only one is in
+ * memory. */
 pg_status pg_cloud_parts (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
                           int size)
 {

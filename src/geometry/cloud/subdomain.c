@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The subdomain of a rank on a lattice. Cells are divided into one box a rank (pg_boxes_divide); a rank owns
  * the vertices at the low corners of its cells (and those at the end of the lattice), or the centres of its
- * cells, and holds ghosts as wide as the method sees. Sites at the rim of what it holds, around which cells
- * are missing, are points too, but beyond all that counts, and nobody brings them up to date. As boxes are
- * known on all ranks, every rank finds by itself what each of the others needs from it: nothing is asked. */
+ * cells, and holds ghosts as wide as the horizon of the method. Sites at the rim of what it holds, around
+ * which cells are missing, are points too, but too far away to matter, and are never updated. As boxes are
+ * known on all ranks, every rank finds by itself what each of the others needs from it, without messages. */
 #include "subdomain.h"
 #include <float.h>
 #include <math.h>
@@ -15,7 +15,7 @@ static int sites_along (const pg_lattice *l, int k, int centred)
     return k < l->dim ? l->whole[k] + !centred : 1;
 }
 
-/* The sites that belong to a box of cells. */
+/* The sites owned by the rank that owns a box of cells. */
 static pg_box sites_of (const pg_box *cells, const pg_lattice *l, int centred)
 {
     pg_box out = *cells;
@@ -40,7 +40,7 @@ static pg_box widened (pg_box b, const pg_lattice *l, int centred, double width)
 /* ---- division ------------------------------------------------------------------------------------------ */
 typedef struct { const pg_lattice *l; const pg_body *body; } counting;
 
-/* Cells of a plane of a box that lie in the body. */
+/* Counts the cells in a plane of a box that lie in the body. */
 static double count_plane (const void *context, const pg_box *box, int axis, int plane)
 {
     const counting *c = context;
@@ -85,7 +85,7 @@ pg_box cloud_cells_held (const pg_box *cells, const pg_lattice *l, double width,
     return held;
 }
 
-/* Index of the cell around x along an axis; places beyond the lattice go to that at its end. */
+/* Index of the cell around x along an axis; positions beyond the lattice get the one at its end. */
 static int cell_at (const pg_lattice *l, int k, double x)
 {
     int part = l->whole[0] > 0;
@@ -110,7 +110,8 @@ int64_t pg_lattice_cell (const pg_lattice *l, const double *x)
     return number;
 }
 
-/* Cell i has the sites i and i + 1 at its ends, or site i in its middle. */
+/* One layer of cells is added to `width` (m), as cell i has the sites i and i + 1 at its ends, or site i in
+ * its middle. */
 pg_box pg_subdomain_cells (const pg_subdomain *d, const pg_lattice *l, double width)
 {
     pg_box out = d->own;
@@ -174,7 +175,8 @@ done:
     return status;
 }
 
-/* With every other rank what lies in its box and in the layer here, and the other way round. */
+/* Lists, for every other rank, what is received (points of its box within this rank's layer of ghosts) and
+ * what is sent (points of this rank's box within its layer). */
 static pg_status make_halo (pg_subdomain *d, const sites *s, const pg_lattice *l, const pg_box *boxes,
                             int rank, int size, const int *at)
 {
@@ -233,7 +235,7 @@ done:
     return status;
 }
 
-/* A rank without points would wait for the others in every step and have nothing to do. */
+/* Refuses ranks without points, which would wait for the others in every step and have nothing to do. */
 pg_status cloud_count_owned (double total, int empty, int size)
 {
     if (!empty) return PG_OK;

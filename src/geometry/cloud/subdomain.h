@@ -12,7 +12,7 @@ typedef struct {
     size_t n;
     /* Coordinate index of site 0: 0 for vertices, 0.5 for centres. */
     double shift;
-    /* Number of cells around a site inside the body, which may be moved. */
+    /* Number of cells counted around a site inside the body; only such sites may be perturbed. */
     int    whole;
     /* Kept cells around each site; 0: no point there (n). */
     unsigned char *around;

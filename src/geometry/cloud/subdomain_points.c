@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The subdomains of points that no lattice gives: recursive bisection by coordinates (Berger and Bokhari
- * 1987), the list of points being cut across the longest side of its box into shares of the ranks. Every rank
- * knows all places, as it has read the file, finds by itself who owns what, and keeps its own points and, as
- * ghosts, those of others within the layer around the box of its own: points of a file, or of a mesh. */
+ * The subdomains of points that stand on no lattice (points of a file, or of a mesh): recursive bisection by
+ * coordinates (Berger and Bokhari 1987), the list of points being cut across the longest side of its box into
+ * shares of the ranks. Every rank knows all positions, as it has read the file, finds by itself who owns
+ * what, and keeps its own points and, as ghosts, those of others within the layer around the box of its
+ * own. */
 #include "subdomain.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 /* A point of a list that is to be cut, and its coordinate across the cut. */
 typedef struct { double at; int point; } place;
 
-/* Along the cut, then by number, so that the order is one. */
+/* Orders points by their coordinate, then by their number, so that the order is unique. */
 static int ascending (const void *a, const void *b)
 {
     const place *x = a, *y = b;
@@ -40,7 +41,7 @@ static int longest (const pg_cloud *c, const place *list, size_t n)
     return axis;
 }
 
-/* Ranks first .. first + ranks - 1 share the points of a list. */
+/* Divides the points of a list among the ranks first .. first + ranks - 1. */
 static void bisect (place *list, size_t n, const pg_cloud *c, int first, int ranks, int *owner)
 {
     if (ranks == 1 || n == 0) {
@@ -78,8 +79,9 @@ static int within (const cloud_region *box, double width, const pg_cloud *c, siz
     return 1;
 }
 
-/* Horizons follow the spacing of a graded cloud: the layer of a rank is as wide as the largest spacing asks
- * for that lies in a layer as wide as the largest of all asks for. */
+/* Finds the width of each rank's layer of ghosts, m. Horizons follow the spacing of a graded cloud: the width
+ * is `width` times the largest spacing ratio among the points in a layer that is as wide as the largest ratio
+ * of all requires. */
 static void find_widths (cloud_division *d, const pg_cloud *c, double width)
 {
     double most = 1;
@@ -127,8 +129,8 @@ static int near_by (const cloud_division *d, int dim, int a, int b)
     return 1;
 }
 
-/* With every other rank: what it needs of the points here, and what is needed of its. at: number of each
- * point among those held, -1: not held. */
+/* Lists for every other rank which points of this rank it needs, and which of its points are needed here. at:
+ * number of each point among those held, -1: not held. */
 static pg_status make_halo (pg_halo *h, const pg_cloud *c, const cloud_division *d, int rank, const int *at)
 {
     pg_status status = PG_OK;

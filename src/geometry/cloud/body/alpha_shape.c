@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The alpha shape of points (Edelsbrunner, Kirkpatrick and Seidel 1983, doi 10.1109/TIT.1983.1056714;
  * Edelsbrunner and Muecke 1994, doi 10.1145/174462.156635), as its part that has volume: the Delaunay
- * simplices whose circumscribed sphere is no larger than alpha. What remains empty is what a ball of that
- * radius reaches without touching a point inside it. */
+ * simplices whose circumscribed sphere is no larger than alpha. The empty space is what a ball of that radius
+ * covers at positions where no point lies inside it. */
 #include "perigal/cloud.h"
 #include "geometry/cloud/search/delaunay.h"
 #include "geometry/cloud/search/tree.h"
@@ -12,11 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Radii are compared with alpha to this, as the points were moved by some 1e-4 of their distances. */
+/* Relative tolerance when radii are compared with alpha: points were moved by some 1e-4 of their
+ * distances. */
 static const double slack = 1e-3;
-/* Automatic alpha over the least radius by which every point belongs to the shape. */
+/* Automatic alpha, in units of the least radius for which every point belongs to the shape. */
 static const double margin = 1.5;
-/* Automatic alpha is refused where one point needs a radius that exceeds those of most others by this. */
+/* Automatic alpha is refused if one point needs a radius this many times that of most points. */
 static const double most_uneven = 30;
 /* A region with less volume than this part of (spacing)^dim is neither a part nor a hole. */
 static const double no_volume = 1e-3;
@@ -29,11 +30,12 @@ typedef struct {
     pg_delaunay d;
     /* Volume of each simplex, m^dim (d.n). */
     double *volume;
-    /* 1: it belongs to the shape (d.n). */
+    /* 1: the simplex belongs to the shape (d.n). */
     unsigned char *in;
-    /* Forest of simplices on the same side that share faces; one more set for the outside (d.n + 1). */
+    /* Disjoint sets of simplices that share faces and are all inside the shape, or all outside; the last set
+     * is the outside (d.n + 1). */
     int *region;
-    /* Volume of each region, at its root (d.n + 1). */
+    /* Volume of each region, at the root of its set, m^dim (d.n + 1). */
     double *region_volume;
 } work;
 
@@ -79,7 +81,7 @@ done:
     return status;
 }
 
-/* The distance of every point from its nearest neighbour. */
+/* Computes the distance of every point from its nearest neighbour (apart, m). */
 typedef struct { const pg_tree *tree; const double *x; double *apart; size_t self; } neighbours;
 
 static int is_self (void *context, const double *at, size_t item)
@@ -130,7 +132,8 @@ static int by_value (const void *p, const void *q)
     return (*a > *b) - (*a < *b);
 }
 
-/* The radius from which on every point is a corner of some simplex, times `margin`. */
+/* Sets alpha to `margin` times the least radius at which every point is a corner of some simplex of the
+ * shape. */
 static pg_status choose_alpha (const work *w, pg_alpha_shape *out, size_t n, const long *from)
 {
     pg_status status = PG_OK;
@@ -161,7 +164,7 @@ done:
     return status;
 }
 
-/* Joins simplices that share a face and are on the same side; empty ones at the hull belong to the
+/* Joins simplices that share a face and are both inside or both outside; outer ones at the hull join the
  * outside. */
 static void find_regions (work *w)
 {
@@ -179,8 +182,8 @@ static void find_regions (work *w)
         w->region_volume[pg_disjoint_root (w->region, (int) s)] += fabs (w->volume[s]);
 }
 
-/* Regions without volume change sides: flat simplices in the midst of the shape, whose radius rounding has
- * put above alpha, and flat ones outside. Then parts and holes are counted. */
+/* Regions without volume are turned from inside to outside or back: flat simplices in the midst of the shape
+ * whose radius exceeds alpha by rounding, and flat ones outside. Then parts and holes are counted. */
 static void settle_regions (work *w, pg_alpha_shape *out)
 {
     double least = no_volume * pow (out->spacing, w->dim);
@@ -219,9 +222,9 @@ static double solid_angle (const work *w, const int *v, int k)
     return 2 * atan2 (fabs (triple (e)), below) / (4 * acos (-1));
 }
 
-/* Size of the space per point: the volume of the shape over the number of its points, each counted by the
- * part of the full angle about it that lies in the shape. On a lattice this is its step. The angles of a
- * triangle are half a full one together. */
+/* Spacing of the points: the volume of the shape over the number of its points, each counted by the part of
+ * the full angle about it that lies in the shape, to the power 1/dim. On a lattice this is its step. The
+ * angles of a triangle are half a full one together. */
 static void measure_spacing (const work *w, pg_alpha_shape *out)
 {
     double volume = 0, points = 0;
@@ -274,7 +277,7 @@ done:
     return status;
 }
 
-/* Simplices up to alpha; automatic where none is given. */
+/* Selects the simplices with radii up to alpha (m), which is chosen automatically where 0 is given. */
 static pg_status select_simplices (work *w, pg_alpha_shape *out, double alpha, size_t n, const long *from)
 {
     pg_status status = PG_OK;
@@ -301,7 +304,7 @@ done:
     return status;
 }
 
-/* Not finite coordinates would be lost in the rounding of places. */
+/* Coordinates are checked first: a NaN or infinity would be lost when positions are rounded. */
 pg_status pg_alpha_shape_create (pg_alpha_shape *out, int dim, size_t n, const double *x, double alpha)
 {
     pg_status status = PG_OK;

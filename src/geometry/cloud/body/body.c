@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body: shapes added and subtracted in the order of the scene. A position on a surface belongs to the
- * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. With what
- * slots among the cracks take from it a body is read in crack_read.c (pg_body_read). */
+ * The body: shapes added and subtracted in the order of the input file. A position on a surface belongs to
+ * the body. Later shapes win: what is subtracted may be filled again by a shape that is added after it.
+ * crack_read.c reads the body with the slots of its cracks subtracted (pg_body_read). */
 #include "crack.h"
 #include "shape.h"
 #include <float.h>
@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Names the surface of shape i, by which sets call it: as the scene says, else hole, rim or side; names
- * of the sides of the bounding box are taken. */
+/* Names the surface of shape i, by which sets refer to it: as the input file says, else hole, rim or side;
+ * names of the sides of the bounding box are refused. */
 static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
 {
     const char *name = !s->add ? "hole" : pg_shape_types[s->kind].round ? "rim" : "side";
@@ -23,7 +23,7 @@ static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
     snprintf (s->boundary, sizeof s->boundary, "%.31s", name);
 }
 
-/* Reads shape i of the scene. After a fault it is a box, so that the other shapes can still be read. */
+/* Reads shape i of the input file. After an error it is a box, so that the other shapes can still be read. */
 static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, size_t i)
 {
     char at[96];
@@ -62,7 +62,7 @@ static void bound (pg_body *body)
     }
 }
 
-/* The alpha shape of the points of the computation as the only shape (key surface). */
+/* Makes the alpha shape of the input file's points the only shape of the body (key surface). */
 static pg_status read_surface (pg_body *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -81,9 +81,9 @@ done:
     return status;
 }
 
-/* The shapes of the scene; room for `more` behind them. A body so far from the origin that its size is lost
- * in rounding is refused: tolerances would be meaningless. Later checks build on earlier ones, so that the
- * faults are reported in stages. */
+/* Reads the shapes of the input file; leaves room for `more` behind them. A body so far from the origin that
+ * its size is lost in rounding is refused: tolerances would be meaningless. Later checks build on earlier
+ * ones, so that errors are reported in stages. */
 static pg_status read_shapes (pg_body *out, const pg_scene *scene, size_t more)
 {
     pg_status status = PG_OK;
@@ -99,7 +99,7 @@ static pg_status read_shapes (pg_body *out, const pg_scene *scene, size_t more)
     PG_ALLOC (out->shape, n + 1 + more + pg_scene_count (scene, "layers"));
     out->n = n;
     if (strcmp (pg_scene_text (scene, "surface"), "none") != 0) return read_surface (out, scene);
-    /* All shapes are read, also behind a wrong one. */
+    /* All shapes are read, also after one with errors. */
     for (size_t i = 0; i < n; i++) {
         PG_TRY (read_shape (&out->shape[i], out->dim, scene, i));
         added += out->shape[i].add != 0;
@@ -123,7 +123,7 @@ done:
     return status;
 }
 
-/* The shapes, what the slots of the cracks take from them, and the layers. */
+/* Reads the shapes of the body, subtracts the slots of cracks, and adds the layers. */
 pg_status pg_body_read_cut (pg_body *out, const pg_scene *scene, size_t slots, pg_shape *slot)
 {
     pg_status status = PG_OK;
@@ -154,7 +154,8 @@ void pg_body_clear (pg_body *body)
     memset (body, 0, sizeof *body);
 }
 
-/* Does a slot certainly not hold x, by its box? Of the many slots of a network most are far away. */
+/* Does x certainly lie outside a slot, judged by the slot's box? Of the many slots of a network most are far
+ * away. */
 static int misses_slot (const pg_shape *s, int dim, const double *x)
 {
     for (int k = 0; k < dim; k++) if (x[k] < s->box[k] || x[k] > s->box[3 + k]) return 1;
@@ -168,9 +169,9 @@ double pg_rounding (int dim, const double *low, const double *high)
     return 4 * DBL_EPSILON * far;
 }
 
-/* 1 for places in the body or within `tolerance` (m) of its surface, on either side of it: a subtracted
- * shape must hold a place by more than that. A shape that would not change the answer so far is not
- * asked. Shapes need only distances up to the tolerance. */
+/* Returns 1 for positions in the body or within `tolerance` (m) of its surface, on either side of it: a
+ * subtracted shape must hold a position by more than that. Shapes that cannot change the result so far are
+ * skipped. Shapes need to compute distances only up to the tolerance. */
 int pg_body_inside (const pg_body *body, const double *x, double tolerance)
 {
     int in = 0;
@@ -186,8 +187,8 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
 
 const char *pg_shape_kind (const pg_shape *shape) { return pg_shape_types[shape->kind].name; }
 
-/* The shape whose surface is nearest to x, and how far it is, m; signs are left away. The least distance
- * so far is the reach of the next question, which shapes may use to stop early. */
+/* Returns the shape whose surface is nearest to x, and its unsigned distance, m. The least distance so far is
+ * passed as the reach to the next shape, which may stop early beyond it. */
 size_t pg_body_nearest (const pg_body *body, const double *x, double *distance)
 {
     size_t nearest = 0;

@@ -4,14 +4,12 @@
  * by the tolerance. The ends of a bond are put in a fixed order first, so that x - y and y - x have the
  * same bits.
  *
- * `retreat` takes strips along tips and fronts away from a crack (mechanics/model/pre_crack_tips.c
- * chooses their
- * widths): bonds
- * that cross the crack there are not cut.
+ * `retreat` removes strips along tips and fronts from a crack (mechanics/model/pre_crack_tips.c chooses their
+ * widths): bonds that cross the crack there are not cut.
  *
- * A sided segment or triangle knows only two sides: what lies on its line or plane counts as on the side that
- * the normal shows to, and a bond is cut if its ends lie on different sides and it crosses the line or plane
- * within the segment or triangle. */
+ * For a sided segment or triangle every point lies on one of two sides: points on its line or plane count as
+ * on the side that the normal points to, and a bond is cut if its ends lie on different sides and it crosses
+ * the line or plane within the segment or triangle. */
 #include "perigal/cloud.h"
 #include "geometry/cloud/search/polygon.h"
 #include "perigal/vector.h"
@@ -79,7 +77,7 @@ static int meets_segment (const pg_crack *c, const double *a, const double *b, d
     return fmax (i, j) >= low - tolerance && fmin (i, j) <= high + tolerance;
 }
 
-/* In the plane of the disc. */
+/* Does the segment a b, in the plane of the disc, come within the disc, less its retreat? */
 static int meets_disc (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     return distance_point (3, c->centre, a, b) <= c->radius - (c->retreat ? c->retreat[0] : 0) + tolerance;
@@ -101,7 +99,7 @@ static int in_polygon (const pg_crack *c, const double *p)
 }
 
 /* ---- a polygon less the strips along its fronts -------------------------------------------------------- */
-/* The part a b of a bond in the plane, and an edge from - to of the polygon. */
+/* The part a b of a bond that lies in the plane of the polygon, and an edge from - to of the polygon. */
 typedef struct { const double *a, *b, *from, *to; } chord;
 
 /* Position at t in [0, 1] on the chord. */
@@ -110,7 +108,7 @@ static void along (const chord *h, double t, double *out)
     for (int k = 0; k < 3; k++) out[k] = h->a[k] + t * (h->b[k] - h->a[k]);
 }
 
-/* Its distance from the edge. */
+/* Distance of the position at t on the chord from the edge, m. */
 static double away (const chord *h, double t)
 {
     double x[3];
@@ -169,8 +167,9 @@ static int in_what_is_left (const pg_crack *c, const double *p, double tolerance
     return in;
 }
 
-/* Along the chord, what is left of the polygon can begin and end only at the ends of the chord, at an edge,
- * or where the chord enters the strip along an edge: these places are tried, of edges that it comes near. */
+/* Does the chord a b meet what the strips leave of the polygon? Along the chord this can begin and end only
+ * at the ends of the chord, at an edge, or where the chord enters the strip along an edge: these positions
+ * are tested, of edges that it comes near. */
 static int meets_what_is_left (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     double length = 0;
@@ -191,7 +190,8 @@ static int meets_what_is_left (const pg_crack *c, const double *a, const double 
     return 0;
 }
 
-/* Without retreats: an end of the chord inside, or an edge within the tolerance. */
+/* Does the chord a b meet the polygon? Without retreats: if an end lies inside, or an edge within the
+ * tolerance. */
 static int meets_polygon (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     if (c->retreat) return meets_what_is_left (c, a, b, tolerance);
@@ -203,9 +203,9 @@ static int meets_polygon (const pg_crack *c, const double *a, const double *b, d
 }
 
 /* ---- an outline ---------------------------------------------------------------------------------------- */
-/* Does the bond x y pass through the inside of an outline in the plane? The edges part it; a part whose
- * middle lies deeper inside than the tolerance passes. Edges that it crosses are found one at a time, in
- * order: the next crossing behind s. */
+/* Does the bond x y pass through the inside of a 2D outline? The edges divide it; a part whose middle lies
+ * deeper inside than the tolerance passes. Edges that it crosses are found one at a time, in order: the next
+ * crossing behind s. */
 static int passes_outline (const pg_crack *c, const double *x, const double *y, double tolerance)
 {
     double s = 0;
@@ -241,9 +241,9 @@ static int after (int dim, const double *x, const double *y)
     return 0;
 }
 
-/* A sided segment or triangle. d, e: distances of the ends from its line or plane, positive on the side that
- * the normal shows to. Of an end on that side the part below zero is left out, so that a point within the
- * width crosses at its own foot. */
+/* Does the bond x y cross a sided segment or triangle? d, e: distances of the ends from its line or plane,
+ * positive on the side that the normal points to, clipped at zero for an end on that side: a point there
+ * within the crack's width then crosses at its own projection. */
 static int crosses_sided (const pg_crack *c, int dim, const double *x, const double *y, double tolerance)
 {
     const double *p = c->vertex;
@@ -256,8 +256,8 @@ static int crosses_sided (const pg_crack *c, int dim, const double *x, const dou
     return meets[c->kind] (c, at, at, tolerance);
 }
 
-/* d, e: distances of the ends from the plane of the crack; s, t: the part of the bond within the
- * tolerance. */
+/* Does the bond x y cross the crack? d, e: distances of its ends from the plane of the crack; s, t: the ends
+ * of the part of the bond within the tolerance. */
 static int crosses (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance)
 {
     const double *p = crack->kind == PG_CRACK_DISC ? crack->centre : crack->vertex;
@@ -282,7 +282,7 @@ int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double
     return crack->sided ? crosses_sided (crack, dim, x, y, tolerance) : crosses (crack, dim, x, y, tolerance);
 }
 
-/* A bond of no length: both ends at x. */
+/* Does x lie on the crack? Tested as a bond of zero length at x. */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance)
 {
     if (crack->kind == PG_CRACK_OUTLINE)

@@ -2,10 +2,10 @@
  * Cracks as a table, read and written: one crack a line, or one vertex a line; separated by commas or blanks;
  * # starts a comment. A header names the columns, in any order, with their units in brackets:
  *
- *     x1 [mm], y1 [mm], x2 [mm], y2 [mm], width [mm]        segments, in the plane
- *     x, y, z, nx, ny, nz, radius, width                    discs, in space
+ *     x1 [mm], y1 [mm], x2 [mm], y2 [mm], width [mm]        segments in 2D
+ *     x, y, z, nx, ny, nz, radius, width                    discs in 3D
  *     polygon, x, y, z, width                               vertices; lines of one number make one polygon
- *     polyline, x, y, width                                 the same, in the plane
+ *     polyline, x, y, width                                 vertices of polylines in 2D, by number
  *
  * Without a header the first two orders are expected. Numbers are written with 17 digits in m, so that a
  * table that was written is read as the same bits. */
@@ -19,9 +19,9 @@
 #include <string.h>
 #include <strings.h>
 
-/* Columns at most; letters of a line. */
+/* Most columns of a table; most characters of a line. */
 enum { MOST = 16, LINE = 1024 };
-/* What a column can hold. */
+/* Roles: the quantities that a column can hold. */
 enum { X1, Y1, X2, Y2, X, Y, Z, NX, NY, NZ, RADIUS, POLYLINE, POLYGON, WIDTH, ROLES };
 static const struct { const char *name, *unit; } role[ROLES] = {
     { "x1", "m" }, { "y1", "m" }, { "x2", "m" }, { "y2", "m" }, { "x", "m" },  { "y", "m" },
@@ -68,14 +68,14 @@ static pg_status __attribute__ ((format (printf, 2, 3))) wrong (reader *r, const
 
 /* ---- header ---------------------------------------------------------------------------------------------
  */
-/* The tables of this dimension, for messages. */
+/* Names the tables that are possible in this dimension, for messages. */
 static const char *tables_of (int dim)
 {
     return dim == 2 ? "x1, y1, x2, y2; or polyline, x, y; or polygon, x, y; and perhaps width"
                     : "x, y, z, nx, ny, nz, radius; or polygon, x, y, z; and perhaps width";
 }
 
-/* Which table the columns make. */
+/* Finds the kind of table that the columns make. */
 static pg_status settle_table (reader *r)
 {
     unsigned given = 0;
@@ -91,7 +91,7 @@ static pg_status settle_table (reader *r)
     return PG_OK;
 }
 
-/* Names and units. */
+/* Reads the header: the role of each column and its unit. */
 static pg_status read_header (reader *r, int n, char **field)
 {
     pg_status status = PG_OK;
@@ -101,7 +101,8 @@ static pg_status read_header (reader *r, int n, char **field)
         PG_TRY (pg_column_cut (field[k], &unit) == PG_OK ? PG_OK : wrong (r, "%s", pg_last_error ()));
         while (what < ROLES && strcasecmp (field[k], role[what].name) != 0) what++;
         if (what == ROLES)
-            /* whatever file a scene names: nothing is shown of one that is no table of cracks */
+            /* the content is not shown: an input file may name any file, also one that is no table of
+             * cracks */
             PG_TRY (wrong (r, "column %d is none of them: the columns of cracks in %dD are %s", k + 1,
                            r->list->all->dim, tables_of (r->list->all->dim)));
         for (int j = 0; j < k; j++)
@@ -132,7 +133,7 @@ static pg_status settle_columns (reader *r, int n)
 
 /* ---- rows -----------------------------------------------------------------------------------------------
  */
-/* Makes the crack of the vertices so far. */
+/* Makes a crack of the vertices read so far. */
 static pg_status end_vertices (reader *r)
 {
     pg_status status = PG_OK;
@@ -161,7 +162,7 @@ done:
     return status;
 }
 
-/* A line with a vertex: the first of a new number ends the crack before. */
+/* Adds a line that holds a vertex; the first line of a new number ends the crack before it. */
 static pg_status add_vertex (reader *r, const double *value)
 {
     pg_status status = PG_OK;
@@ -181,7 +182,7 @@ done:
     return status;
 }
 
-/* A line with a whole crack. */
+/* Adds a line that holds a whole crack. */
 static pg_status add_crack (reader *r, const double *value)
 {
     pg_status status = PG_OK;
@@ -198,7 +199,7 @@ done:
     return status;
 }
 
-/* The values of a line, in SI units, by their roles. */
+/* Converts the values of a line to SI units, stored by their roles. */
 static pg_status read_values (reader *r, char *const *field, double *value)
 {
     char *end;
@@ -261,7 +262,7 @@ done:
 
 /* ---- writing --------------------------------------------------------------------------------------------
  */
-/* The table that holds a crack. */
+/* Returns the kind of table that holds this crack. */
 static int table_of (const pg_crack *c, int dim)
 {
     if (c->kind == PG_CRACK_SEGMENT) return c->bend ? PLANE_LINES : SEGMENTS;
@@ -269,7 +270,7 @@ static int table_of (const pg_crack *c, int dim)
     return dim == 2 ? PLANE_POLYGONS : POLYGONS;
 }
 
-/* Table t, of which the cracks have any; a segment before a bend belongs to the polyline. */
+/* Is crack i written to table t? A segment that a bend follows belongs to a polyline. */
 static int belongs (const pg_cracks *all, size_t i, int t)
 {
     int next = i + 1 < all->n && all->crack[i + 1].bend && all->crack[i + 1].entry == all->crack[i].entry;
@@ -301,7 +302,7 @@ static void write_crack (FILE *f, const pg_crack *c, int dim, int t, int wide, s
         write_vertex (f, *number, dim, v + (size_t) dim * i, c->slot, wide);
 }
 
-/* The name of the file of a further table: cracks.csv, cracks_polygon.csv. */
+/* Names the file of a second or third table: cracks_polygon.csv beside cracks.csv. */
 static void name_file (char *out, size_t size, const char *path, int t)
 {
     const char *dot = strrchr (path, '.'), *slash = strrchr (path, '/'), *word = t == PLANE_LINES ? "polyline"

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Balls about cracks in the cells of a grid: a network of n cracks is placed in a time that grows with n. */
+ * Balls about cracks, sorted into the cells of a grid: a network of n cracks is placed in time proportional
+ * to n. */
 #include "crack_random.h"
 #include <math.h>
 
-/* Cells along an axis, in the plane and in space. */
+/* Cells along an axis in 2D and in 3D. */
 enum { PLANE = 128, SPACE = 24 };
 
 pg_status crack_grid_create (crack_grid *g, int dim, const double *low, const double *high)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which of many cracks does a bond meet? A bond looks only at the cracks whose boxes it meets; the answers
- * are those of asking every crack in turn.
+ * Which of many cracks does a bond meet? Only the cracks whose boxes the bond meets are tested; the answers
+ * are the same as if every crack were tested in turn.
  *
  * The cracks are put in an order in which neighbours lie near each other, PG_CRACK_GROUP at a time in a
  * block, as many blocks in a larger one, and so on up to one block that holds all. Block b of level l holds
- * the places b s to (b + 1) s - 1 of the order, s = PG_CRACK_GROUP^(l + 1); the boxes of the levels follow
+ * positions b s to (b + 1) s - 1 of the order, s = PG_CRACK_GROUP^(l + 1); the boxes of the levels follow
  * each other in `block`. */
 #include "perigal/cloud.h"
 #include "geometry/cloud/search/tree.h"
@@ -14,7 +14,7 @@
 enum { LEVELS = 22 };                                  /* 8^22 cracks are more than there can be */
 
 /* ---- boxes --------------------------------------------------------------------------------------------- */
-/* A segment, with what it cuts beyond its ends. */
+/* Box of a segment, lengthened by negative retreats, beyond its ends, m. */
 static void box_of_segment (const pg_crack *c, double *low, double *high)
 {
     const double *p = c->vertex, t[2] = { c->normal[1], -c->normal[0] };
@@ -26,7 +26,7 @@ static void box_of_segment (const pg_crack *c, double *low, double *high)
     }
 }
 
-/* A disc reaches radius * sqrt (1 - n_k^2) along axis k. */
+/* Box of a disc: it extends radius * sqrt (1 - n_k^2) along axis k. */
 static void box_of_disc (const pg_crack *c, double *low, double *high)
 {
     for (int k = 0; k < 3; k++) {
@@ -35,7 +35,7 @@ static void box_of_disc (const pg_crack *c, double *low, double *high)
     }
 }
 
-/* Polygons in space, outlines in the plane. */
+/* Box of a polygon in 3D, or an outline in 2D. */
 static void box_of_polygon (const pg_crack *c, int dim, double *low, double *high)
 {
     for (int k = 0; k < dim; k++) {
@@ -46,7 +46,7 @@ static void box_of_polygon (const pg_crack *c, int dim, double *low, double *hig
     }
 }
 
-/* The slack stands for rounding, of a disc in proportion to its size. */
+/* The box is widened by a slack for rounding, of a disc in proportion to its size. */
 void pg_crack_box (const pg_crack *c, int dim, double *box)
 {
     double *low = box, *high = box + dim;
@@ -59,7 +59,7 @@ void pg_crack_box (const pg_crack *c, int dim, double *box)
     }
 }
 
-/* Do two boxes have a place in common? */
+/* Do two boxes (low and high corners) overlap? */
 static int overlap (int dim, const double *a, const double *b)
 {
     for (int k = 0; k < dim; k++) if (!(a[k] <= b[dim + k] && b[k] <= a[dim + k])) return 0;
@@ -73,7 +73,7 @@ void pg_cracks_clear_index (pg_cracks *c)
     c->box = c->block = NULL, c->order = NULL, c->room = 0;
 }
 
-/* Room for n cracks and, as they grow, for as many again. */
+/* Makes room for n cracks and for as many again, so that lists may grow. */
 static pg_status reserve (pg_cracks *c, size_t n)
 {
     pg_status status = PG_OK;
@@ -122,7 +122,7 @@ static int levels_of (const pg_cracks *c, size_t *start)
     return level;
 }
 
-/* Widens a box so that it holds another, or takes the other's place. */
+/* Widens a box so that it holds another; first 1: sets it to the other. */
 static void unite (int dim, double *box, const double *other, int first)
 {
     for (int k = 0; k < dim; k++) {
@@ -167,14 +167,15 @@ done:
 }
 
 /* ---- questions ----------------------------------------------------------------------------------------- */
-/* A bond x - y, or with y = x a place; what of it is asked. NULL: only whether the boxes meet. */
+/* A test of one crack against a bond x - y, or with y = x a point. NULL: only whether the boxes meet. */
 typedef int (*question) (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
 typedef struct {
     const pg_cracks *cracks;
     question ask;
     const double *x, *y;
     double tolerance, box[6];
-    size_t start[LEVELS + 1], found;                   /* found: the first crack that says yes; n: none */
+    /* found: the first crack for which the test is true; n: none */
+    size_t start[LEVELS + 1], found;
 } inquiry;
 
 static int meets (const inquiry *q, size_t crack)
@@ -184,7 +185,7 @@ static int meets (const inquiry *q, size_t crack)
     return !q->ask || q->ask (&c->crack[crack], c->dim, q->x, q->y, q->tolerance);
 }
 
-/* Goes through block b of a level; only cracks before the one found so far count. */
+/* Searches block b of a level; only cracks before the one found so far are tested. */
 static void look (inquiry *q, int level, size_t b)
 {
     const pg_cracks *c = q->cracks;
@@ -196,7 +197,8 @@ static void look (inquiry *q, int level, size_t b)
     }
 }
 
-/* The first crack in their order of the scene counts, so that the answer does not depend on the blocks. */
+/* Returns the first crack in the order of the input file for which `ask` is true, so that the answer does not
+ * depend on the blocks. */
 static const pg_crack *first_of (const pg_cracks *c, question ask, const double *x, const double *y,
                                  double tolerance)
 {
@@ -207,7 +209,7 @@ static const pg_crack *first_of (const pg_cracks *c, question ask, const double 
     }
     if (c->n == 0) return NULL;
     inquiry q = { .cracks = c, .ask = ask, .x = x, .y = y, .tolerance = tolerance, .found = c->n };
-    /* a little wider than the tolerance */
+    /* the box is wider than the tolerance against rounding */
     for (int k = 0; k < c->dim; k++)
         q.box[k] = fmin (x[k], y[k]) - 2 * tolerance, q.box[c->dim + k] = fmax (x[k], y[k]) + 2 * tolerance;
     look (&q, levels_of (c, q.start) - 1, 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Kinds of cracks from their numbers: segments and outlines in the plane; polygons, discs and ellipses in
- * space. What is wrong with one is said in words, so that the caller can add key or line. */
+ * Kinds of cracks from their numbers: segments and outlines in 2D; polygons, discs and ellipses in 3D. Errors
+ * are returned as text, to which the caller can add key or line. */
 #include "crack.h"
 #include "geometry/cloud/search/polygon.h"
 #include "perigal/vector.h"
@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* To unit length; one that has it to rounding is kept, so that what was written is read as the same bits. */
+/* Scales n to unit length; one that has it to rounding is kept, so that values are written and read back bit
+ * by bit. 0: it has no length. */
 static int scale_to_unit (double *n)
 {
     double size = pg_size (3, n);
@@ -43,7 +44,8 @@ done:
     return status;
 }
 
-/* Unit normal by the area vector of the polygon, which no unlucky choice of three vertices can spoil. */
+/* Finds the unit normal by the area vector of the polygon, which does not depend on a choice of three
+ * vertices. */
 static void find_normal (pg_crack *c)
 {
     const double *o = c->vertex;
@@ -58,7 +60,7 @@ static void find_normal (pg_crack *c)
     for (int k = 0; k < 3 && size > 0; k++) c->normal[k] /= size;
 }
 
-/* What is wrong with the polygon, or NULL; flat: room for its projection (nvertex x 2). */
+/* Returns what is wrong with the polygon, or NULL; flat: workspace for its projection (nvertex x 2). */
 static const char *polygon_fault (const pg_crack *c, double *flat)
 {
     double size = 0, off = 0;
@@ -124,8 +126,8 @@ done:
 
 /* ---- ellipses -------------------------------------------------------------------------------------------
  */
-/* Vertex i of the polygon that stands for a circle of radius 1: of its area, n / 2 sin (2 pi / n) R^2 = pi.
- */
+/* Vertex i of the polygon that replaces a circle of radius 1: with its area, n / 2 sin (2 pi / n) R^2 = pi.
+ * */
 static void on_circle (size_t i, double *u, double *v)
 {
     const double pi = acos (-1), n = CRACK_CORNERS, R = sqrt (pi / (0.5 * n * sin (2 * pi / n)));
@@ -142,7 +144,7 @@ pg_status crack_ellipse (pg_crack *c, const double *centre, const double *normal
     if (!scale_to_unit (n)) *why = "normal has no length";
     for (int k = 0; k < 3 && !*why; k++) part += n[k] * along[k];
     for (int k = 0; k < 3; k++) e[k] = along[k] - part * n[k];
-    /* a direction along the normal to a part in 1e6 is none in the plane */
+    /* a direction along the normal to 1e-6 has no direction in the plane */
     if (!*why && !(pg_size (3, e) > 1e-6 * pg_size (3, along))) *why = "long axis lies along its normal";
     if (*why || !scale_to_unit (e)) return PG_OK;
     for (int k = 0; k < 3; k++) f[k] = n[(k + 1) % 3] * e[(k + 2) % 3] - n[(k + 2) % 3] * e[(k + 1) % 3];

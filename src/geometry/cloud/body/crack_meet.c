@@ -29,7 +29,7 @@ static int may_meet (const pg_body *body, const double *a, const double *b, cons
         || may_meet (body, c, ca, bc, depth + 1) || may_meet (body, ab, bc, ca, depth + 1);
 }
 
-/* Polygons as fans of triangles. */
+/* Tests a polygon as a fan of triangles. */
 int crack_may_meet (const pg_body *body, const pg_crack *c)
 {
     const double *v = c->vertex;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: random networks of cracks, as the scene asks for them (crack_random_read.c) and as they are placed
- * (crack_random.c). */
+ * Private: random networks of cracks: the request in the input file (crack_random_read.c) and the placing of
+ * cracks (crack_random.c). */
 #ifndef PERIGAL_CLOUD_CRACK_RANDOM_H
 #define PERIGAL_CLOUD_CRACK_RANDOM_H
 #include "crack.h"
@@ -9,27 +9,28 @@
 /* Distributions of a number. */
 enum { CRACK_FIXED, CRACK_UNIFORM, CRACK_NORMAL, CRACK_LOGNORMAL, CRACK_EXPONENTIAL, CRACK_POWER_LAW,
        CRACK_VON_MISES, CRACK_FISHER };
-/* One of them: mean and standard deviation, or exponent, or concentration; what lies beyond low and high is
- * drawn again. */
+/* A distribution: mean and standard deviation, or exponent, or concentration, by kind; values beyond low and
+ * high are drawn again. */
 typedef struct { int kind; double mean, deviation, low, high, exponent, concentration; } crack_distribution;
 
-/* Shapes of cracks in space. */
+/* Shapes of cracks in 3D. */
 enum { CRACK_DISC, CRACK_RECTANGLE, CRACK_ELLIPSE };
 
-/* What the scene asks for. */
+/* What the input file asks of one random network. */
 typedef struct {
     uint32_t seed;
-    /* Number of cracks; or part of the body that their slots make; or their length (area) per area (volume)
-     * of the body, 1/m: cracks are placed until this is reached; 0: not given. */
+    /* Number of cracks; or fraction of the body that their slots take; or intensity: their length (3D: area)
+     * per area (volume) of the body, 1/m: cracks are placed until this is reached; 0: not given. */
     long   count;
     double fraction, intensity;
     crack_distribution length, angle;
-    /* In space: the direction about which normals lie, a unit vector. */
+    /* In 3D: mean direction of the normals, a unit vector. */
     double normal[3];
-    /* Places: uniform in the body, or in a box; or normal about a mean, by axis, m. */
+    /* Positions of the middles: uniform in the body, or in the box low .. high; or (gathered 1) normally
+     * distributed about `mean` with a standard deviation for each axis, m. */
     int    gathered;
     double mean[3], deviation[3], low[3], high[3];
-    /* In space: the shape, and its breadth over its length. */
+    /* In 3D: the shape, and its breadth over its length. */
     int    shape;
     double aspect;
     /* Least distance from other cracks (negative: they may cross), and of whole cracks from the surface,
@@ -40,14 +41,16 @@ typedef struct {
     /* Width of the slots, m; 0: sharp. */
     double width;
 } crack_request;
-/* Cracks of all networks of a scene together, at most. */
+/* The most cracks of all networks of an input file together. */
 enum { CRACK_MOST = 20000 };
 pg_status crack_request_read (crack_request *out, const crack_list *list);
-/* A number of the distribution; an angle of von Mises' distribution is drawn by its direction instead. */
+/* Draws a number from the distribution; for an angle of von Mises' distribution its direction is drawn
+ * instead. */
 double    crack_draw (const crack_distribution *d, random_source *r);
 
-/* Balls in the cells of a grid, so that those near a place are found without asking all. A ball stands in
- * every cell that its box meets; what lies outside of the grid counts to the outermost cells. */
+/* Balls sorted into the cells of a grid, so that those near a position are found without testing all. A ball
+ * is listed in every cell that its box meets; what lies outside of the grid belongs to the outermost
+ * cells. */
 typedef struct {
     int     dim, cells[3];
     double  low[3], size[3];

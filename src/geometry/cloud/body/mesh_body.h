@@ -8,6 +8,7 @@
 enum { PG_MESH_BODY_ORDER = 4 };
 /* Positions of the nodes of element e (nodes x dim), m. */
 void pg_mesh_body_nodes (const pg_mesh *mesh, size_t e, double *x);
-/* pg_mesh_body_read for the map at this path of the scene: "mesh", "body[0].add.mesh". */
+/* Reads the mesh as pg_mesh_body_read does, from the map at path `at` of the input file: "mesh",
+ * "body[0].add.mesh". */
 pg_status mesh_body_at (pg_mesh_body *out, const pg_scene *scene, const char *at);
 #endif

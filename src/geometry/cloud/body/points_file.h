@@ -4,12 +4,12 @@
 #define PERIGAL_CLOUD_POINTS_FILE_H
 #include "perigal/cloud.h"
 
-/* Fills x, volume, block, size and n of a cloud whose dim is set. What is wrong with the file is a fault of
- * the scene under `points`, with file and line. */
+/* Fills x, volume, block, size and n of a cloud whose dim is set. Errors in the file are reported under the
+ * key `points`, with file and line. */
 pg_status pg_points_read  (pg_cloud *cloud, const pg_scene *scene);
-/* Only the places (x, n), from the file that this key of the scene names. Volumes may be missing, other
- * columns are passed over, and points may be there twice. */
+/* Reads only the positions (x, n), from the file that this key of the input file names. Volumes may be
+ * missing, other columns are ignored, and points may occur twice. */
 pg_status pg_points_places (pg_cloud *cloud, const pg_scene *scene, const char *key);
-/* pg_points_read from memory, `text` of `size` bytes in place of the content of the file. */
+/* Does what pg_points_read does with `text` of `size` bytes in memory in place of the content of the file. */
 pg_status pg_points_parse (pg_cloud *cloud, const pg_scene *scene, const char *text, size_t size);
 #endif

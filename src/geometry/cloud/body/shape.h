@@ -13,15 +13,15 @@ typedef struct {
     int lowest, highest;
     /* 1: its surface is called rim. */
     int round;
-    /* Reads it from the map at path `at`, such as "body[2].add.disk". */
+    /* Reads a shape from the map at path `at` of the input file, such as "body[2].add.disk". */
     pg_status (*read)     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
-    /* Signed distance of x from the surface; beyond `reach` any value of the right sign and at least that
+    /* Signed distance of x from the surface, m; beyond `reach` any value of the right sign and at least that
      * size. */
     double    (*distance) (const pg_shape *shape, int dim, const double *x, double reach);
     void      (*box)      (const pg_shape *shape, int dim, double *low, double *high);
 } pg_shape_type;
 
-/* Kinds that a scene may use; PG_STAIRS, PG_PLATE and PG_FACETED come behind them. */
+/* Number of kinds that an input file may use; PG_STAIRS, PG_PLATE and PG_FACETED follow them. */
 enum { PG_SHAPES = PG_ALPHA_SHAPE + 1 };
 /* Indexed by pg_shape.kind. */
 extern const pg_shape_type pg_shape_types[PG_FACETED + 1];
@@ -38,7 +38,7 @@ void      shape_alpha_box      (const pg_shape *shape, int dim, double *low, dou
 int       shape_alpha_volume   (const pg_shape *shape, double *volume, double *surface);
 /* Reads `layers`: each becomes a box behind the shapes, and the bounding box grows. */
 pg_status pg_layers_read      (pg_body *body, const pg_scene *scene);
-/* Is this the name of a side of the body, or all? */
+/* Is this the name of a side of the bounding box, or `all`? */
 int       pg_layers_taken     (const char *name);
 double    shape_stairs_distance (const pg_shape *shape, int dim, const double *x, double reach);
 double    shape_facets_distance (const pg_shape *shape, int dim, const double *x, double reach);

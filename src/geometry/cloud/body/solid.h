@@ -5,21 +5,21 @@
 #include "mesh_body.h"
 
 struct pg_solid {
-    /* Mesh: its elements. Alpha shape: `cloud` has them, and this stays empty. */
+    /* The elements of a mesh; for an alpha shape this stays empty. */
     pg_mesh_body part;
     pg_alpha_shape cloud;
-    /* The search for elements and for faces. */
+    /* Search for the element at a position, and for the nearest face. */
     pg_mesh_locator *locator;
     pg_mesh_skin *skin;
-    /* Stairs: the lattice, without `in`. */
+    /* For PG_STAIRS: the lattice, without its array `in`. */
     pg_lattice lattice;
     /* Sign of the distance at the centre of each cell; 0: on the surface. */
     signed char *sign;
-    /* Flat pieces of the surface. */
+    /* The surface as flat pieces. */
     pg_facets facets;
 };
 /* Frees the arrays of facets. */
 void      facets_clear   (pg_facets *facets);
-/* Sorts their pieces into columns along each axis (facet_columns.c). PG_E_MEMORY. */
+/* Sorts the pieces of facets into columns along each axis (facet_columns.c). PG_E_MEMORY. */
 pg_status facets_columns (pg_facets *facets);
 #endif
