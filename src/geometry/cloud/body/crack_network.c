@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the cracks of a scene amount to: number, sizes, directions, distances, and how much of them the body
- * holds. */
+ * Statistics of the cracks of an input file: number, sizes, directions, distances, and how much of them the
+ * body holds. */
 #include "crack.h"
 #include "geometry/cloud/search/crack_distance.h"
 #include "geometry/cloud/search/polygon.h"
 #include <math.h>
 #include <string.h>
 
-/* Places of the body, and of a crack along each of its directions, that are asked whether they lie inside. */
+/* Number of positions that are tested for lying in the body: of the body's bounding box, along a 2D crack,
+ * and along a direction of a 3D crack. */
 enum { BODY_PLACES = 200000, CRACK_PLACES = 200, AREA_PLACES = 24 };
 
-/* In closed form, or by the middles of equal boxes over the bounding box. */
+/* The measure in closed form, or by counting the middles of equal boxes over the bounding box. */
 pg_status crack_body_measure (double *out, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -28,7 +29,8 @@ done:
     return status;
 }
 
-/* The part of a crack that lies in the body, 0 to 1: places along a segment, in the plane of a polygon. */
+/* Fraction of a crack that lies in the body, 0 to 1: by sampling positions along a segment, or in the plane
+ * of a polygon. */
 static double part_inside (const pg_crack *c, const pg_body *body)
 {
     double all = 0, in = 0, x[3] = { 0 };
@@ -84,13 +86,14 @@ static void measure_pairs (pg_network *out, const pg_cracks *all, double *ball, 
             if ((gap > 0 && gap >= out->nearest) || of_one_polyline (all, i, j)) continue;
             double apart = crack_distance (&all->crack[i], &all->crack[j], all->dim);
             out->nearest = fmin (out->nearest, apart);
-            /* to rounding of their size */
+            /* zero to the rounding of their size */
             if (apart <= 1e-12 * (a[3] + b[3])) meets[i] = meets[j] = 1;
         }
     for (size_t i = 0; i < all->n; i++) out->crossing += meets[i];
 }
 
-/* The largest eigenvalue of the mean of a a' tells how far the axes a agree: 1 / dim at random, 1 alike. */
+/* Mean axis of the cracks and its order: the largest eigenvalue of the mean of a a' tells how far the axes a
+ * agree: 1 / dim: random directions, 1: all parallel. */
 static void measure_axes (pg_network *out, const pg_cracks *all)
 {
     double mean[9] = { 0 }, lambda[3], V[9], a[3], weight = 0;
@@ -107,7 +110,7 @@ static void measure_axes (pg_network *out, const pg_cracks *all)
     out->order = fmax (0, (lambda[0] * dim - 1) / (dim - 1));
 }
 
-/* Lengths of cracks, pieces of a polyline together. */
+/* Statistics of the lengths of cracks, m; the pieces of a polyline count together as one crack. */
 static void measure_lengths (pg_network *out, const pg_cracks *all)
 {
     double sum = 0, squares = 0;

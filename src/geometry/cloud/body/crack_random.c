@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Random networks. Of each crack its length and its direction are drawn once; then places are drawn until it
- * fits: inside the body, and far enough from all cracks before it. So lengths and directions have the
- * distributions that were asked for, whatever the body, and only the places know of body and neighbours
- * (drawing anew what does not fit at once would prefer short cracks). A crack that fits nowhere, because it
- * is too long for the body in its direction, is drawn anew; where several in a row are, the scene is refused.
+ * Random networks. Of each crack its length and its direction are drawn once; then positions are drawn until
+ * it fits: inside the body, and far enough from all cracks before it. So lengths and directions have the
+ * distributions that were asked for, whatever the body, and only the positions depend on body and neighbours
+ * (drawing all anew whenever a crack does not fit would prefer short cracks). A crack that fits nowhere,
+ * because it is too long for the body in its direction, is drawn anew; where several in a row fit nowhere,
+ * the input file is refused.
  *
- * Random numbers and whatever decides about them use the functions of random.c only, so that a seed gives one
- * network on every machine. */
+ * Random numbers and every decision that depends on them use only the functions of random.c, so that a seed
+ * gives one network on every machine. */
 #include "crack_random.h"
 #include "geometry/cloud/search/crack_distance.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Places that are tried for one crack; cracks in a row that are tried; places tried for all cracks of a
- * network; values drawn before the limits of a distribution are given up; depth of the subdivision of a crack
- * near the surface; lengths drawn to find their mean. */
+/* TRIES: positions tried for one crack. CRACKS: cracks in a row that may fit nowhere. ALL_TRIES: positions
+ * tried for a whole network. DRAWS: values drawn before the limits of a distribution are given up. DEEPEST:
+ * depth of the subdivision of a crack near the surface. SAMPLE: lengths drawn to find their mean. */
 enum { TRIES = 5000, CRACKS = 20, ALL_TRIES = 10000000, DRAWS = 100000, DEEPEST = 10, SAMPLE = 2000 };
 
 /* The network while it grows. */
@@ -23,19 +24,19 @@ typedef struct {
     const crack_request *ask;
     crack_list *list;
     random_source source;
-    /* The body without slots and layers, its area or volume, its box. */
+    /* The body without slots and layers; its area (m^2) or volume (m^3). */
     pg_body body;
     double  measure;
-    /* Balls about all cracks so far (n x 4). */
+    /* Balls about all cracks so far, centre and radius, m (n x 4). */
     double *ball;  size_t nball, capacity;
     crack_grid grid;
-    /* Places tried so far. */
+    /* Number of positions tried so far. */
     long    tries;
 } network;
 
 /* ---- numbers --------------------------------------------------------------------------------------------
  */
-/* One value, which may lie beyond the limits. */
+/* Draws one value, which may lie beyond the limits. */
 static double draw_once (const crack_distribution *d, random_source *r)
 {
     double u, a, ratio, variance;
@@ -54,7 +55,7 @@ static double draw_once (const crack_distribution *d, random_source *r)
     }
 }
 
-/* NAN: the limits leave next to nothing of the distribution. */
+/* Draws until a value lies between the limits; NAN: they leave next to nothing of the distribution. */
 double crack_draw (const crack_distribution *d, random_source *r)
 {
     for (int n = 0; n < DRAWS; n++) {
@@ -66,7 +67,8 @@ double crack_draw (const crack_distribution *d, random_source *r)
 
 /* ---- a crack --------------------------------------------------------------------------------------------
  */
-/* A crack about the origin: in the plane its half vector; in space its normal and two half vectors. */
+/* A crack centred at the origin, m: in 2D half of its vector; in 3D its unit normal and two half vectors at
+ * right angles. */
 typedef struct { double length, half[3], other[3], normal[3]; } model;
 
 static int draw_direction (network *w, double *direction)
@@ -85,7 +87,7 @@ static int draw_direction (network *w, double *direction)
     return 1;
 }
 
-/* A normal about the request's, and a direction across it, turned at random. */
+/* Draws a normal near the requested one, and a direction in the crack's plane, turned at random. */
 static void draw_frame (network *w, model *m)
 {
     double local[3], e[3], f[3], c, s;
@@ -104,7 +106,7 @@ static void draw_frame (network *w, model *m)
     }
 }
 
-/* Puts the crack at a place: an entry at the end of the list. */
+/* Makes c the crack m with its middle at the position `at` (m). */
 static pg_status place (pg_crack *c, const network *w, const model *m, const double *at)
 {
     double v[12];
@@ -126,7 +128,7 @@ static pg_status place (pg_crack *c, const network *w, const model *m, const dou
 /* ---- does it fit? ---------------------------------------------------------------------------------------
  */
 /* Does the piece at + i half + j other, i in [i0, i1], j in [j0, j1], lie in the body, `deep` m below the
- * surface? By balls about it and subdivision; undecided pieces at the end count by their middles. */
+ * surface? By balls around it and subdivision; at the greatest depth its middle decides. */
 static int piece_inside (const network *w, const model *m, const double *at, const double *range, double deep,
                          int depth)
 {
@@ -151,7 +153,8 @@ static int piece_inside (const network *w, const model *m, const double *at, con
     return 1;
 }
 
-/* A disc and an ellipse are asked for at their rims: a ring of places, and the middle. */
+/* Does a disc or an ellipse lie in the body, `deep` m below its surface? Tested at a ring of positions on the
+ * rim, and at a ring half as large. */
 static int round_inside (const network *w, const model *m, const double *at, double deep)
 {
     enum { RING = 96 };
@@ -176,16 +179,16 @@ static int fits_body (const network *w, const model *m, const double *at)
     return piece_inside (w, m, at, whole, deep, 0);
 }
 
-/* Radius of the ball about a crack with half its slot and the slack of a disc. */
+/* Radius of the ball about a crack, enlarged by half its slot and by the slack of a disc, m. */
 static double grown (const pg_crack *c, double radius) { return 1.01 * (radius + 0.5 * c->slot); }
 
-/* Is the crack far enough from crack i? Balls settle most of the pairs. */
+/* Is the crack far enough from crack i? Their balls decide for most pairs. */
 static int far_from (const network *w, const pg_crack *c, const double *middle, double radius, size_t i)
 {
     const pg_crack *b = &w->list->all->crack[i];
     const double *ball = w->ball + 4*i;
     double d[3] = { ball[0] - middle[0], ball[1] - middle[1], ball[2] - middle[2] };
-    /* a polygon that stands for a disc lies inside of it by this much at most */
+    /* a polygon that replaces a disc lies inside of it by this much at most */
     double slack = (c->kind == PG_CRACK_DISC ? 0.0013 * c->radius : 0)
                    + (b->kind == PG_CRACK_DISC ? 0.0013 * b->radius : 0),
            least = w->ask->distance + 0.5 * (c->slot + b->slot) + slack;
@@ -194,8 +197,8 @@ static int far_from (const network *w, const pg_crack *c, const double *middle, 
     return !(apart < least || apart == 0);
 }
 
-/* From all before it: only balls of the cells that its own ball meets are asked, grown by the least distance
- * (that of slots and the slack of discs are parts of the radii). */
+/* Is the crack far enough from all cracks before it? Only balls in the grid cells that its own ball meets are
+ * tested, enlarged by the least distance (widths of slots and slack of discs are parts of the radii). */
 static int far_from_others (const network *w, const pg_crack *c)
 {
     double middle[3], radius;
@@ -236,7 +239,7 @@ static void draw_place (network *w, double *at)
                               : ask->low[k] + (ask->high[k] - ask->low[k]) * random_uniform (&w->source);
 }
 
-/* Draws a crack and finds a place for it; *found: 0: there was none. */
+/* Draws a crack and finds a position for it; *found: 0: none fits. */
 static pg_status add_crack (network *w, int *found)
 {
     pg_status status = PG_OK;
@@ -262,7 +265,8 @@ done:
     return status;
 }
 
-/* Is the network complete, with n cracks of that size, which remove so much? */
+/* Is the network complete with n cracks of the total length (3D: area) `size`, which remove the area (volume)
+ * `removed`? */
 static int complete (const network *w, long n, double size, double removed)
 {
     const crack_request *ask = w->ask;
@@ -271,10 +275,10 @@ static int complete (const network *w, long n, double size, double removed)
     return size >= ask->intensity * w->measure;
 }
 
-/* Cracks that the networks above this one leave it. */
+/* Number of cracks that may still be drawn after the networks before this one. */
 static long most_left (const network *w) { return CRACK_MOST - w->list->drawn; }
 
-/* The fault says how far it came. */
+/* Reports that the network cannot be completed, and how far it came. */
 static void give_up (const network *w, long n, double size, double removed)
 {
     char path[96], what[96];
@@ -318,8 +322,8 @@ static double mean_size (const crack_request *ask, int dim)
     return sum / SAMPLE * (dim == 2 || ask->shape == CRACK_RECTANGLE ? 1 : 0.785398163397448);
 }
 
-/* What would take more cracks than the networks of a scene may have together is refused before the first is
- * drawn. */
+/* Refuses, before the first crack is drawn, a network that would take more cracks than all networks of an
+ * input file may have together. */
 static int affordable (const network *w)
 {
     char path[96], beside[96] = "";
@@ -349,7 +353,7 @@ static int affordable (const network *w)
     return 0;
 }
 
-/* The body that cracks are placed in: without its layers. */
+/* Sets the body in which cracks are placed: without its layers. */
 static pg_status settle_body (network *w)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the scene asks of a random network: `cracks: [{random: {...}}]`. Keys that the distribution chosen
- * does not use are faults, as are limits that leave nothing of it. */
+ * Reads the request for a random network: `cracks: [{random: {...}}]`. Keys that the distribution chosen does
+ * not use are errors, as are limits that leave nothing of it. */
 #include "crack_random.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Where the keys of a distribution stand, and which of them it takes. */
+/* Bits for the keys of a distribution, by which each kind lists those that it takes. */
 enum { MEAN = 1, DEVIATION = 2, MIN = 4, MAX = 8, EXPONENT = 16, CONCENTRATION = 32, SPREADS = 6 };
 static const char *const key[SPREADS] = { "mean", "deviation", "min", "max", "exponent", "concentration" };
 /* needs, may have: bits of the keys above */
@@ -27,7 +27,7 @@ static const spread angles[] = {
 /* The state of the reader. */
 typedef struct { const pg_scene *scene; const crack_list *list; char at[96]; } asking;
 
-/* "cracks[0].random.length.min" */
+/* Writes the path of a key, such as "cracks[0].random.length.min". */
 static const char *path_of (const asking *a, char out[160], const char *map, const char *word)
 {
     snprintf (out, 160, "%s.%s%s%s", a->at, map, *word ? "." : "", word);
@@ -42,7 +42,7 @@ static void read_spread (crack_distribution *d, const asking *a, const char *map
     double *value[SPREADS] = { &d->mean, &d->deviation, &d->low, &d->high, &d->exponent, &d->concentration };
     const char *name = pg_scene_text (a->scene, "%s", path_of (a, out, map, "distribution"));
     while (s->name && strcmp (s->name, name) != 0) s++;
-    if (!s->name) return;                              /* the key's choices refuse it */
+    if (!s->name) return;                              /* an unknown name has been reported already */
     d->kind = s->kind;
     for (int k = 0; k < SPREADS; k++) {
         int given = pg_scene_given (a->scene, "%s", path_of (a, out, map, key[k])), bit = 1 << k;
@@ -57,7 +57,7 @@ static void read_spread (crack_distribution *d, const asking *a, const char *map
         pg_scene_fault (a->scene, path_of (a, out, map, ""), "min, %g, lies above max, %g", d->low, d->high);
 }
 
-/* Values that the limits leave next to nothing of would be drawn for ever. */
+/* Reports limits that leave next to nothing of a distribution: drawing from it would not end. */
 static void try_draw (const crack_distribution *d, const asking *a, const char *map)
 {
     char path[160];
@@ -68,7 +68,7 @@ static void try_draw (const crack_distribution *d, const asking *a, const char *
                         "next to nothing of this distribution lies between min and max");
 }
 
-/* A number, or a map with a distribution. */
+/* Reads the length of cracks: a number (m), or a map with its distribution. */
 static void read_length (crack_distribution *d, const asking *a)
 {
     *d = (crack_distribution) { .kind = CRACK_FIXED, .low = 0, .high = INFINITY };
@@ -81,7 +81,8 @@ static void read_length (crack_distribution *d, const asking *a)
     if (!(d->low > 0)) d->low = 1e-300;
 }
 
-/* In the plane: an angle, or a map; without it all directions alike. */
+/* Reads the 2D direction of cracks: an angle (rad), or a map with its distribution; without it all directions
+ * are equally likely. */
 static void read_angle (crack_distribution *d, const asking *a)
 {
     const double pi = 3.14159265358979323846;
@@ -94,7 +95,7 @@ static void read_angle (crack_distribution *d, const asking *a)
                                     .mean = pg_scene_number (a->scene, "%s.angle", a->at) };
 }
 
-/* In space: the mean normal and how closely the normals gather about it. */
+/* Reads, in 3D, the mean normal and its concentration: how closely the normals lie about it. */
 static void read_normal (crack_request *q, const asking *a)
 {
     char path[160];
@@ -110,7 +111,7 @@ static void read_normal (crack_request *q, const asking *a)
     else for (int k = 0; k < 3; k++) q->normal[k] /= size;
 }
 
-/* A box for the middles, or a cluster. */
+/* Reads the distribution of the middles: uniform in a box, or normal about a mean. */
 static void read_position (crack_request *q, const asking *a)
 {
     char path[160];
@@ -136,7 +137,7 @@ static void read_position (crack_request *q, const asking *a)
         }
 }
 
-/* Keys that belong to the other dimension. */
+/* Reports keys that belong to the other dimension (2D or 3D). */
 static void refuse_dimension (const asking *a)
 {
     static const struct { const char *key; int dim; } of[] = {

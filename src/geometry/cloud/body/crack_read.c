@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * `cracks` of the scene: in the plane segments, polylines, and outlines (polygon, ellipse) of slots; in space
- * polygons, discs, ellipses; many of them from a file. An entry that certainly does not meet the body is a
- * fault: most likely its coordinates are in other units. */
+ * Reads `cracks` of the input file: in 2D segments, polylines, and outlines (polygon, ellipse) of slots; in
+ * 3D polygons, discs, ellipses; many of them from a file. An entry that certainly does not meet the body is
+ * an error: most likely its coordinates are in other units. */
 #include "crack.h"
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ done:
     return status == PG_OK ? c : NULL;
 }
 
-/* A crack that cannot be is a fault of its entry. */
+/* Reports what is wrong with the crack of this entry (why, if not NULL). */
 static pg_status settle (crack_list *list, pg_status status, const char *what, const char *why)
 {
     if (status == PG_OK && why) pg_scene_fault (list->scene, list->at, "%s %s", what, why);
@@ -30,7 +30,7 @@ static pg_status settle (crack_list *list, pg_status status, const char *what, c
 
 /* ---- kinds ----------------------------------------------------------------------------------------------
  */
-/* from and to. */
+/* Reads a segment from its ends, `from` and `to`. */
 static pg_status read_segment (crack_list *list)
 {
     double from[3] = { 0 }, to[3] = { 0 };
@@ -47,7 +47,7 @@ static pg_status read_segment (crack_list *list)
     return settle (list, status, "the crack", why);
 }
 
-/* A list of vertices [x, y] or [x, y, z]; *n of them. */
+/* Reads a list of vertices [x, y] or [x, y, z], m; *n of them. */
 static pg_status read_vertices (double **out, size_t *n, const crack_list *list, const char *key)
 {
     pg_status status = PG_OK;
@@ -60,7 +60,7 @@ done:
     return status;
 }
 
-/* A segment from each vertex to the next. */
+/* Reads a polyline as a segment from each vertex to the next. */
 static pg_status read_polyline (crack_list *list)
 {
     pg_status status = PG_OK;
@@ -85,7 +85,7 @@ done:
     return status;
 }
 
-/* In the plane the outline of a slot, in space the crack itself. */
+/* Reads a polygon: in 2D the outline of a slot, in 3D the crack itself. */
 static pg_status read_polygon (crack_list *list)
 {
     pg_status status = PG_OK;
@@ -102,7 +102,7 @@ done:
     return status;
 }
 
-/* Centre, normal, radius. */
+/* Reads a disc: its centre, normal and radius. */
 static pg_status read_disc (crack_list *list)
 {
     double centre[3] = { 0 }, normal[3] = { 0 };
@@ -116,7 +116,7 @@ static pg_status read_disc (crack_list *list)
     return settle (list, status, "the", status == PG_OK ? why : NULL);
 }
 
-/* The key of an ellipse that belongs to the other dimension. */
+/* Reports a key of an ellipse that belongs to the other dimension. */
 static void refuse_key (const crack_list *list, const char *key, const char *instead)
 {
     char path[96];
@@ -170,7 +170,7 @@ static const struct { const char *key; int lowest, highest, wide; pg_status (*re
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* The width of an entry, m; 0: none. Materials are removed from shapes only. */
+/* Reads the width of an entry, m; 0: none. outline 1: the crack is an outline, which takes no width. */
 static double read_width (const crack_list *list, int outline)
 {
     char path[96];
@@ -184,7 +184,7 @@ static double read_width (const crack_list *list, int outline)
     return isnan (width) ? 0 : width;
 }
 
-/* Reads the entry that the list is at. */
+/* Reads the current entry, cracks[list->entry]. */
 static pg_status read_entry (crack_list *list)
 {
     int dim = list->all->dim, k = 0;
@@ -206,7 +206,7 @@ static pg_status read_entry (crack_list *list)
     return PG_OK;
 }
 
-/* The fault says where the body is. */
+/* Reports an entry outside the body, and where the body is. */
 static void fault_outside (const crack_list *list, size_t entry)
 {
     char text[128], at[64];
@@ -218,7 +218,7 @@ static void fault_outside (const crack_list *list, size_t entry)
     pg_scene_fault (list->scene, at, "lies outside the body, which fills %s", text);
 }
 
-/* An entry of which no piece meets the body. */
+/* Reports entries no piece of which meets the body. */
 static void find_outside (const crack_list *list)
 {
     const pg_cracks *all = list->all;
@@ -230,7 +230,7 @@ static void find_outside (const crack_list *list)
     }
 }
 
-/* Slots are cut out of shapes. */
+/* Reports slots in a body that is not given by shapes: they can be cut out of shapes only. */
 static void refuse_slots (const crack_list *list)
 {
     const pg_cracks *all = list->all;
@@ -247,7 +247,7 @@ static void refuse_slots (const crack_list *list)
     }
 }
 
-/* The body is read only to see whether cracks meet it. */
+/* Reads all cracks, and the body only to see whether they meet it. */
 pg_status crack_read_all (pg_cracks *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -271,7 +271,7 @@ done:
     return status;
 }
 
-/* Keeps the sharp ones, or the slots. */
+/* Reads all cracks and keeps the sharp ones (slots 0) or the slots (1). */
 static pg_status read_some (pg_cracks *out, const pg_scene *scene, int slots)
 {
     pg_status status = PG_OK;
@@ -299,7 +299,7 @@ pg_status pg_slots_read (pg_cracks *out, const pg_scene *scene)
     return crack_slots_given (scene) ? read_some (out, scene, 1) : PG_OK;
 }
 
-/* The body without what the slots among its cracks take from it. */
+/* Reads the body and subtracts the slots among its cracks. */
 pg_status pg_body_read (pg_body *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks with a width as shapes that are taken from the body: a segment becomes a rectangle, a bend of a
- * polyline a disk, an outline itself; in space a disc becomes a cylinder, a polygon a plate. Ends are square:
- * a slot is as long as its crack (Zhou 2025, section 5.1). */
+ * Cracks with a width as shapes that are subtracted from the body: a segment becomes a rectangle, a bend of a
+ * polyline a disk, an outline itself; in 3D a disc becomes a cylinder, a polygon a plate. Ends are square: a
+ * slot is as long as its crack (Zhou 2025, section 5.1). */
 #include "crack.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A rectangle about a segment. */
+/* Makes a rectangle about a segment, as wide as the slot. */
 static pg_status rectangle (pg_shape *s, const pg_crack *c)
 {
     pg_status status = PG_OK;
@@ -33,7 +33,7 @@ done:
     return status;
 }
 
-/* A polygon in space, in its own plane: origin, two directions, vertices there; half the width on each
+/* Makes a plate of a 3D polygon: origin, two directions, vertices in its own plane; half the width on each
  * side. */
 static pg_status plate (pg_shape *s, const pg_crack *c)
 {

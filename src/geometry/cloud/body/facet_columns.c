@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rays along the axes through a surface of flat pieces. Seen along an axis the pieces lie in columns as wide
- * as the cells of a lattice; a ray asks those of one column.
+ * Rays along the axes through a surface of flat pieces. Projected along an axis the pieces lie in columns as
+ * wide as the cells of a lattice; a ray tests those of one column.
  *
- * A place is inside where the pieces above it turn it in: a ray that leaves the shape counts +1, one that
- * enters it -1, so that meshes may overlap or touch without sharing nodes. A ray too near to an edge to say
- * on which side of it it passes is no answer; the next axis is asked then. */
+ * A point is inside where the sum over the pieces above it is positive: a piece through which the ray leaves
+ * the shape counts +1, one through which it enters -1, so that meshes may overlap or touch without sharing
+ * nodes. A ray so near to an edge that its side is uncertain gives no answer; the next axis is tried then. */
 #include "shape.h"
 #include "solid.h"
 #include <math.h>
 #include <string.h>
 
-/* Nearer to an edge than this share of the piece: no answer. */
+/* A ray nearer to an edge than this share of the piece gives no answer. */
 static const double edge_on = 1e-10;
 
 /* ---- columns ------------------------------------------------------------------------------------------- */
-/* The axes across `axis`: the first *p, in space also the second *q (else the same). */
+/* The axes other than `axis`: the first *p, in 3D also the second *q (else the same). */
 static void across (int dim, int axis, int *p, int *q)
 {
     *p = (axis + 1) % dim, *q = dim > 2 ? (axis + 2) % dim : *p;
 }
 
-/* Number of the column at cells a, b across the axis. */
+/* Number of the column at cells a, b along the other two axes. */
 static size_t column_at (const pg_facets *f, int axis, int a, int b)
 {
     int p, q;
@@ -36,8 +36,8 @@ static void range (const pg_lattice *l, int k, double low, double high, int *fir
     *first = (int) fmin (fmax (a, 0), l->count[k] - 1), *last = (int) fmin (fmax (b, 0), l->count[k] - 1);
 }
 
-/* Enters piece i in the columns that it reaches into; write: 0 counts, into the entry behind that of each
- * column, 1 writes, and moves the start of the column on. */
+/* Enters piece i in the columns that its box meets; write: 0: counts, into the entry after that of each
+ * column; 1: writes, and moves the start of the column on. */
 static void enter (pg_facets *f, int axis, size_t i, int write)
 {
     int p, q, first[2], last[2], across_of[2];
@@ -61,7 +61,7 @@ static void enter (pg_facets *f, int axis, size_t i, int write)
         }
 }
 
-/* Counts, sums, writes, and moves the starts back by one. */
+/* Sorts the pieces into columns: counts, sums, writes, and moves the starts back by one entry. */
 pg_status facets_columns (pg_facets *f)
 {
     pg_status status = PG_OK;
@@ -98,7 +98,7 @@ static long column_of (const pg_facets *f, int axis, const double *x)
 }
 
 /* ---- rays ---------------------------------------------------------------------------------------------- */
-/* Does the line through x along the axis pass beside piece i, by more than its edges are thick? */
+/* Does the line through x along the axis miss the box of piece i by more than a tolerance? */
 static int misses (const pg_facets *f, size_t i, int axis, const double *x)
 {
     size_t dim = (size_t) f->dim;
@@ -138,7 +138,7 @@ static int meet (const pg_facets *f, size_t i, int axis, const double *x, double
     for (size_t c = 0; c < dim; c++)
         wide = fmax (wide, fmax (fabs (corner[c * dim + (size_t) p] - corner[(size_t) p]),
                                  fabs (corner[c * dim + (size_t) q] - corner[(size_t) q])));
-    /* Seen edge on: its neighbours say that the ray is too near. */
+    /* The piece is parallel to the ray: its neighbours report a ray that is too near. */
     if (!(fabs (size) > 1e-12 * (dim == 2 ? f->lattice.step[p] : wide * f->lattice.step[p]))) return 0;
     *at = 0;
     for (size_t c = 0; c < dim; c++)
@@ -148,7 +148,7 @@ static int meet (const pg_facets *f, size_t i, int axis, const double *x, double
     return least < edge_on ? 2 : size > 0 ? 1 : -1;
 }
 
-/* By a ray along one axis; -1: it passes too near to an edge. */
+/* Is x inside, by a ray along one axis? -1: it passes too near to an edge. */
 static int inside_along (const pg_facets *f, int axis, const double *x)
 {
     long column = column_of (f, axis, x);
@@ -163,7 +163,7 @@ static int inside_along (const pg_facets *f, int axis, const double *x)
     return turns > 0;
 }
 
-/* Where every axis fails, the place is moved by far less than any length that matters. */
+/* Is x inside? Where the rays along all axes fail, x is moved by far less than any length that matters. */
 int pg_facets_inside (const pg_facets *f, const double *x)
 {
     static const double aside[3] = { 0.7548, 0.5698, -0.8192 };
@@ -206,7 +206,7 @@ int pg_facets_line (const pg_facets *f, const double *x, int axis, int most, dou
     return n;
 }
 
-/* Only the sign matters: any distance is infinite. */
+/* The distance is infinite, as only its sign is used. */
 double shape_facets_distance (const pg_shape *s, int dim, const double *x, double reach)
 {
     (void) dim;

@@ -20,15 +20,15 @@ typedef struct {
     const pg_mesh *mesh;
     /* Faces of the surface. */
     size_t nface;  int *element, *side;
-    /* Of each piece: numbers of its corners (n x dim), its face, its neighbour beyond the edge from corner k
-     * to the next (2D: beyond corner k), -1: none (n x dim). */
+    /* For each piece: id: numbers of its corners (n x dim); face: its face; beside: its neighbour at the edge
+     * from corner k to the next (2D: at corner k), -1: none (n x dim). */
     long  *id;  int *face, *beside;
     size_t room_x, room_id, room_face;
     /* The next number for a corner that is no node. */
     long   next;
     /* Corners this far off a plane lie in it, m. */
     double tolerance;
-    /* Of each face: which side sets it belongs to, as one number. */
+    /* For each face: its side sets, as one number (find_sets). */
     unsigned long long *sets;
 } builder;
 
@@ -56,7 +56,7 @@ static double normal_of (int dim, const double *x, double *n)
     return sqrt (size);
 }
 
-/* The coordinate, on the plane of the lattice where it is next to it. */
+/* Moves a coordinate onto a plane of the lattice if it lies within the tolerance of it. */
 static double snapped (const pg_lattice *l, int k, double x)
 {
     double i = floor ((x - l->origin[k]) / l->step[k] + 0.5), plane = pg_lattice_at (l, k, i);
@@ -118,7 +118,7 @@ static int is_flat (const double *x)
     return fabs (off) <= 1e-12 * wide && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > 0;
 }
 
-/* A straight face: as it is, along a diagonal, or about its middle. */
+/* Adds a straight face: as it is, divided along a diagonal, or in four about its middle. */
 static pg_status add_straight (builder *b, size_t face, pg_element kind, const long *node, const double *x)
 {
     pg_status status = PG_OK;
@@ -145,7 +145,7 @@ done:
     return status;
 }
 
-/* The grid of a curved face, or the middle of one of its squares. */
+/* A curved face with its grid. */
 typedef struct {
     builder *b;  size_t face;
     pg_element kind;
@@ -154,7 +154,7 @@ typedef struct {
     int steps;
 } curved;
 
-/* Number and place of grid point i, j; half: of the middle of the square from there. */
+/* Number and position (m) of grid point i, j; half 1: of the middle of the square that begins there. */
 static void grid_point (const curved *g, int i, int j, int half, long *id, double *place)
 {
     int m = g->steps, triangle = pg_element_types[g->kind].corners == 3;
@@ -170,7 +170,7 @@ static void grid_point (const curved *g, int i, int j, int half, long *id, doubl
     pg_element_map (g->kind, g->b->f->dim, g->x, xi, place, NULL);
 }
 
-/* The piece with three grid points as corners (2D: two). at: i, j, half of each. */
+/* Adds the piece whose corners are three grid points (2D: two). at: i, j, half of each. */
 static pg_status add_grid_piece (const curved *g, int at[3][3])
 {
     long id[3];
@@ -179,7 +179,8 @@ static pg_status add_grid_piece (const curved *g, int at[3][3])
     return add_piece (g->b, g->face, id, (const double *[]){ place[0], place[1], place[2] });
 }
 
-/* One step of the grid: a segment; one or two triangles of a triangle; four about the middle of a square. */
+/* Adds the pieces of one step of the grid: a segment; one or two triangles of a triangle; four about the
+ * middle of a square. */
 static pg_status add_step (const curved *g, int i, int j)
 {
     pg_status status = PG_OK;
@@ -199,7 +200,7 @@ done:
     return status;
 }
 
-/* A curved face, with as many steps as its longest edge asks for. */
+/* Adds a curved face, divided into `steps` steps along each edge. */
 static pg_status add_curved (builder *b, size_t face, pg_element kind, const long *node, const double *x,
                              int steps)
 {
@@ -213,7 +214,8 @@ done:
     return status;
 }
 
-/* Steps along the edges of all curved faces: the longest edge of the mesh over 3/4 of the step. */
+/* Number of steps along the edges of all curved faces: the longest edge of the mesh over 3/4 of the lattice
+ * step. */
 static int steps_of (const builder *b)
 {
     double longest = 0, step = HUGE_VAL;
@@ -232,7 +234,7 @@ static int steps_of (const builder *b)
     return (int) fmin (MOST, fmax (1, ceil (longest / (0.75 * step))));
 }
 
-/* All faces. */
+/* Adds the pieces of all faces. */
 static pg_status add_faces (builder *b)
 {
     pg_status status = PG_OK;
@@ -294,7 +296,8 @@ done:
     return status;
 }
 
-/* A number that tells the side sets of each face apart: the sum of one well-mixed number for each set. */
+/* Gives each face a number that differs between different combinations of side sets: the sum of one hashed
+ * number for each set. */
 static pg_status find_sets (builder *b)
 {
     pg_status status = PG_OK;
@@ -321,7 +324,7 @@ done:
     return status;
 }
 
-/* Does piece j lie in the plane (place, unit normal), with its normal on the same side? */
+/* Does piece j lie in the plane (point, unit normal: 2 dim numbers), with its normal on the same side? */
 static int in_plane (const builder *b, size_t j, const double *plane)
 {
     int dim = b->f->dim;
@@ -337,7 +340,7 @@ static int in_plane (const builder *b, size_t j, const double *plane)
     return 1;
 }
 
-/* A seed: larger pieces come first, since they know their planes best. */
+/* A piece from which a region grows; larger pieces come first, since their planes are the most accurate. */
 typedef struct { double size;  int piece; } seed;
 
 static int compare_seeds (const void *x, const void *y)
@@ -347,7 +350,7 @@ static int compare_seeds (const void *x, const void *y)
     return (s->piece > t->piece) - (s->piece < t->piece);
 }
 
-/* Gives the pieces that can be reached from piece `from` in its plane the number of a new region. */
+/* Gives a new region's number to the pieces that are connected to piece `from` within its plane. */
 static void grow (builder *b, int from, int *stack)
 {
     pg_facets *f = b->f;
@@ -368,7 +371,7 @@ static void grow (builder *b, int from, int *stack)
     }
 }
 
-/* Which axis the plane of each region is normal to, to rounding; it is made so exactly then. */
+/* Finds the axis that the plane of each region is normal to, to rounding; the normal is then made exact. */
 static void find_axes (builder *b)
 {
     pg_facets *f = b->f;
@@ -389,7 +392,7 @@ static void find_axes (builder *b)
     }
 }
 
-/* Edges of a region: those of its pieces with no neighbour in it. */
+/* Finds the edges of each region: those of its pieces with no neighbour in it. */
 static pg_status find_edges (builder *b)
 {
     pg_status status = PG_OK;
@@ -414,7 +417,7 @@ done:
     return status;
 }
 
-/* Regions from all seeds, then what belongs to each. */
+/* Grows regions from all pieces, then lists pieces, axes and edges of each. */
 static pg_status find_regions (builder *b)
 {
     pg_status status = PG_OK;

@@ -17,8 +17,8 @@ double pg_lattice_tolerance (const pg_lattice *l)
     return 1e-9 * step + pg_rounding (l->dim, origin, high);
 }
 
-/* Number of cells of the body without its layers, in [low, high]; *more: those of the layers on both
- * sides. */
+/* Number of cells along axis k of the body without its layers, in [low, high] (m); *more: of those in the
+ * layers on both sides. */
 static double cells_along (const pg_body *body, int k, double spacing, double *low, double *high,
                            double *more)
 {
@@ -31,7 +31,7 @@ static double cells_along (const pg_body *body, int k, double spacing, double *l
     return cells;
 }
 
-/* Counts, steps and corners; an offset shifts the lattice towards the low side and adds a cell. */
+/* Sets counts, steps and corners; an offset shifts the lattice towards the low side and adds a cell. */
 static pg_status fit_axes (pg_lattice *l, const pg_body *body, double spacing, const double *offset)
 {
     pg_status status = PG_OK;
@@ -53,8 +53,8 @@ done:
     return status;
 }
 
-/* Which cells have their centre in the body. The tolerance follows from the steps, which must be known before
- * any centre is asked for. */
+/* Finds which cells have their centre in the body. The tolerance follows from the steps, which must be known
+ * before any centre is tested. */
 static pg_status fill (pg_lattice *l, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -72,7 +72,7 @@ done:
     return status;
 }
 
-/* Corners of the part are those of its cells in the whole. */
+/* Reduces the lattice to the cells `part`; corners are those of its cells in the whole lattice. */
 static void take_part (pg_lattice *l, const pg_box *part)
 {
     memcpy (l->whole, l->count, sizeof l->whole);
@@ -121,7 +121,7 @@ int pg_lattice_goes_on (const pg_lattice *l, const int *i)
     return 1;
 }
 
-/* From the nearer end, so that mirror images have the same bits. */
+/* Computed from the nearer end of the lattice, so that mirror images have the same bits. */
 double pg_lattice_at (const pg_lattice *l, int axis, double i)
 {
     int part = l->whole[0] > 0;

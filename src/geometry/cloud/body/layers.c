@@ -19,7 +19,7 @@ int pg_layers_taken (const char *name)
     return !strcmp (name, "all");
 }
 
-/* Reads and checks a name. Whether a set of the scene has it too is found when the sets are built. */
+/* Reads and checks a name. A set of the input file with the same name is reported when the sets are built. */
 static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *scene, size_t i)
 {
     const char *name = pg_scene_text (scene, "layers[%zu].name", i);
@@ -31,7 +31,7 @@ static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *sce
         pg_scene_fault (scene, at, "a name has at least one letter and no space . [ ] { } =");
     else if (pg_layers_taken (name))
         pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
-    /* Shapes of the scene, and the boxes of earlier layers. */
+    /* Surfaces of shapes, and the boxes of earlier layers. */
     for (size_t k = 0; k < body->n; k++)
         if (!strcmp (name, body->shape[k].boundary)) {
             pg_scene_fault (scene, at, "'%s' already names the surface of a shape, or another layer", name);
@@ -87,7 +87,8 @@ static void lay (pg_shape *box, pg_layer *layer, int dim, const double *low, con
     memcpy (box->boundary, layer->name, sizeof box->boundary);
 }
 
-/* Where the body ends between x, which is inside, and `to` along an axis, by bisection to the last bit. */
+/* Returns the coordinate (m) at which the body ends between x, which is inside, and `to` along an axis, by
+ * bisection to the last bit. */
 static double edge_of (const pg_body *body, const double *x, int axis, double to)
 {
     double at[3] = { x[0], x[1], x[2] }, inside = x[axis], outside = to;
@@ -101,7 +102,7 @@ static double edge_of (const pg_body *body, const double *x, int axis, double to
     return inside;
 }
 
-/* Cells looked at along an axis, at most. */
+/* The most cells tested along an axis. */
 enum { MOST_LOOKS = 4096 };
 
 /* Shrinks the box of a layer to the part of the face below which, half a cell deep, the body lies: from the
@@ -114,7 +115,7 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
     double step[3] = { 0 }, first[3], last[3];
     for (int k = 0; k < body->dim; k++) {
         first[k] = high[k], last[k] = low[k];
-        /* Places looked at along an axis: as many as cells of the lattice, but at most MOST_LOOKS. */
+        /* Positions tested along an axis: as many as cells of the lattice, but at most MOST_LOOKS. */
         double cells = fmax (1, floor ((high[k] - low[k]) / spacing + 0.5));
         if (k != normal) count[k] = (int) (cells = fmin (cells, MOST_LOOKS));
         step[k] = (high[k] - low[k]) / cells;
@@ -141,7 +142,7 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
     return found;
 }
 
-/* Layers are cells of a lattice: bodies without one cannot have them. */
+/* Reports layers for bodies without a lattice: layers consist of lattice cells. */
 static void refuse (const pg_scene *scene)
 {
     const char *origin = pg_scene_given (scene, "mesh")     ? "a mesh"
@@ -158,7 +159,7 @@ static void refuse (const pg_scene *scene)
             "are whole cells outside the body, which lattice_offset would cut: leave one of the two out");
 }
 
-/* Each layer is appended to the shapes, and the bounding box grows by it. */
+/* Reads the layers; each is appended to the shapes, and the bounding box grows by it. */
 pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -168,11 +169,11 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
     if (n == 0) return PG_OK;
     refuse (scene);
     PG_TRY (pg_scene_verdict (scene));
-    /* Without shapes or a spacing there is a fault that other checks report. */
+    /* Missing shapes or a missing spacing are reported by other checks. */
     if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;
     memcpy (low, body->low, sizeof low), memcpy (high, body->high, sizeof high);
     PG_ALLOC (body->layer, n);
-    /* The body without layers, for questions where it lies. */
+    /* The body without layers, to test what lies in it. */
     const pg_body bare = *body;
     for (size_t i = 0; i < n; i++) {
         pg_layer *layer = &body->layer[i];
@@ -201,7 +202,7 @@ done:
     return status;
 }
 
-/* Only the coordinate across the layer is compared: beyond a face of the body there is nothing but its
+/* Only the coordinate normal to the layer is compared: beyond a face of the body there is nothing but its
  * layer. */
 long pg_body_layer (const pg_body *body, const double *x, double margin)
 {

@@ -5,7 +5,7 @@
 #include "geometry/cloud/search/polygon.h"
 #include <math.h>
 
-/* Area and length of the outline. */
+/* Area (m^2) and length of the outline (m) of a polygon. */
 static void of_polygon (const pg_shape *s, double *area, double *outline)
 {
     *area = fabs (pg_polygon_area (s->nvertex, s->vertex)), *outline = 0;
@@ -13,7 +13,7 @@ static void of_polygon (const pg_shape *s, double *area, double *outline)
         *outline += hypot (s->vertex[2*i] - s->vertex[2*j], s->vertex[2*i + 1] - s->vertex[2*j + 1]);
 }
 
-/* Shapes that overlap or are subtracted would need their intersections: no closed form then. */
+/* Returns 0 for a body of several shapes: overlapping or subtracted ones would need their intersections. */
 int pg_body_measure (const pg_body *body, double *volume, double *surface)
 {
     const pg_shape *s = body->shape;

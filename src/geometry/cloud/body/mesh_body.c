@@ -11,8 +11,8 @@
 #include <string.h>
 
 /* ---- file and unit ------------------------------------------------------------------------------------- */
-/* Reads the file that key AT.file names, relative to the scene. What is wrong becomes a fault of the
- * scene. */
+/* Reads the file that key AT.file names, relative to the input file. Errors are reported as errors of the
+ * input file (scene). */
 static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -21,7 +21,7 @@ static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *
     snprintf (b->file, sizeof b->file, "%s", pg_scene_text (scene, "%s", key));
     PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)));
     status = pg_mesh_read (&b->mesh, path);
-    /* Lack of memory is no fault of the scene. */
+    /* Lack of memory is no error of the input file. */
     if (status == PG_E_MEMORY) goto done;
     if (status != PG_OK) {
         snprintf (why, sizeof why, "%s", pg_last_error ());
@@ -39,7 +39,7 @@ done:
     return status;
 }
 
-/* Unit of the file: a unit ("mm") or a length ("25.4 mm"). */
+/* Scales the mesh to m by the unit of its file: a unit ("mm") or a length ("25.4 mm"). */
 static pg_status scale (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -59,7 +59,8 @@ done:
 }
 
 /* ---- blocks -------------------------------------------------------------------------------------------- */
-/* Names come before numbers: a block may be called "2". */
+/* Returns the number of the block with that name or, failing that, that id (a block may be called "2"); -1:
+ * none. */
 int pg_mesh_body_block (const pg_mesh *m, const char *name)
 {
     char number[24];
@@ -100,7 +101,7 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
         at += count;
     }
     m->start[n] = at, m->n = n;
-    /* Nodes likewise; node[i] becomes the new number. */
+    /* Nodes move to the front too; node[i] becomes the new number. */
     for (size_t i = 0; i < m->nnode; i++) {
         if (!node[i]) node[i] = -1;
         else {
@@ -109,7 +110,7 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
         }
     }
     m->nnode = nnode;
-    /* Numbers in elements, node sets and side sets. */
+    /* Old numbers in elements, node sets and side sets become new ones. */
     for (size_t k = 0; k < at; k++) m->node[k] = node[m->node[k]];
     for (size_t s = 0; s < m->nnodes; s++) {
         size_t left = 0;
@@ -131,8 +132,8 @@ done:
     return status;
 }
 
-/* Elements of types that are not known are no loss where key AT.blocks leaves out the blocks that have them;
- * else they would be holes of the body. */
+/* Reports elements of unknown types, which would be holes of the body, unless key AT.blocks leaves out the
+ * blocks that have them. */
 static pg_status refuse_foreign (const pg_mesh *m, const pg_scene *scene, const char *at)
 {
     char key[128], of[128], name[128];
@@ -152,7 +153,7 @@ static pg_status refuse_foreign (const pg_mesh *m, const pg_scene *scene, const 
     return pg_scene_verdict (scene);
 }
 
-/* Key AT.blocks: the blocks in use, by name or number. */
+/* Keeps only the blocks that key AT.blocks lists, by name or number. */
 static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -228,7 +229,7 @@ static double scaled_jacobian (pg_element kind, int dim, const double *x)
             for (int a = 0; a < dim && size > 0; a++) v[n][a] /= sqrt (size);
             n++;
         }
-        /* Their volume, over that at a corner of the regular element. */
+        /* Volume spanned by these vectors, over that at a corner of the regular element. */
         double det = dim == 2 ? v[0][0] * v[1][1] - v[0][1] * v[1][0]
                               : v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1])
                                     - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0])
@@ -263,8 +264,8 @@ static double measure (const pg_mesh *m, size_t e, double *least)
     return volume;
 }
 
-/* Volumes (m^3, in the plane m^2), sizes (their dim-th roots) and quality of all elements; the worst is
- * remembered for the plan. */
+/* Computes volumes (m^3, in 2D m^2), sizes (their dim-th roots) and quality of all elements; the worst
+ * element is remembered for the plan of the run. */
 static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const char *key)
 {
     pg_status status = PG_OK;
@@ -274,7 +275,7 @@ static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const c
     for (size_t e = 0; e < m->n; e++) {
         double x[3 * PG_ELEMENT_NODES], least;
         b->volume[e] = measure (m, e, &least);
-        /* Written so that NaN is a fault as well. */
+        /* Written so that NaN is an error as well. */
         if (!(least > 0)) {
             pg_scene_fault (
                 scene, key,
@@ -293,7 +294,8 @@ done:
     return status;
 }
 
-/* A fault for a mesh too far from the origin, whose size is lost in rounding (of shapes: pg_body_read). */
+/* Reports a mesh too far from the origin, whose size is lost in rounding (pg_body_read does so for
+ * shapes). */
 static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const char *key)
 {
     for (int k = 0; k < m->dim; k++) {
@@ -311,7 +313,8 @@ static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const cha
     return pg_scene_verdict (scene);
 }
 
-/* Positions are in m from `scale` on; blocks that are not in use take no part in any check. */
+/* Reads a mesh and checks it. Positions are in m from the call of `scale` on; blocks that are not in use are
+ * not checked. */
 pg_status mesh_body_at (pg_mesh_body *out, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -328,7 +331,7 @@ done:
     return status;
 }
 
-/* The mesh of key `mesh`; a shape may be a mesh too (shape_mesh.c). */
+/* Reads the mesh of key `mesh`; a shape may be a mesh too (shape_mesh.c). */
 pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene)
 {
     return mesh_body_at (out, scene, "mesh");

@@ -3,10 +3,10 @@
  * blanks; # starts a comment. A header line may come first: it names the columns, in any order, with their
  * units in brackets (and must, for a spacing without a block).
  *
- *     x [mm], y [mm], volume [mm3], block
- *     0.5, 0.5, 1, 0
+ * x [mm], y [mm], volume [mm3], block
+ * 0.5, 0.5, 1, 0
  *
- * A column of numbers of the points (id) is not used, which is noted in the cloud.
+ * A column of numbers of the points (id) is ignored; the cloud lists its name.
  *
  * Two points at one position are a fault, because a bond between them would have no length. */
 #include "geometry/cloud/search/csv_line.h"
@@ -20,9 +20,9 @@
 #include <string.h>
 #include <strings.h>
 
-/* Columns at most. */
+/* Most columns of a file. */
 enum { MOST_FIELDS = 16 };
-/* What a column can hold; X + k: coordinate k. */
+/* Roles: the quantities that a column can hold; X + k: coordinate k. */
 enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };
 static const struct { const char *name, *unit; } role[ROLES] = {
     { "x", "m" }, { "y", "m" }, { "z", "m" }, { "volume", "m3" }, { "block", "1" }, { "spacing", "m" } };
@@ -30,19 +30,19 @@ static const struct { const char *name, *unit; } role[ROLES] = {
 /* State of the reader. */
 typedef struct {
     const pg_scene *scene;
-    /* Key of the scene for faults, and the file as the scene names it. */
+    /* Key under which errors are reported, and the file's name as the input file gives it. */
     const char *key, *name;
-    /* 1: only places are asked for: volumes may be missing, other columns are passed over, and points may be
-     * there twice. */
+    /* 1: only positions are read: volumes may be missing, other columns are ignored, and points may occur
+     * twice. */
     int     places;
     char   *text;
-    /* Present line, from 1. */
+    /* Number of the current line, from 1. */
     size_t  line;
     /* Number of columns of all lines; 0: not known yet. */
     size_t  columns;
-    /* Column of each role, from 1; 0: there is none. */
+    /* Number of the column that holds each role, from 1; 0: there is none. */
     size_t  column[ROLES];
-    /* SI units per unit of that column. */
+    /* Factor from the unit of each role's column to SI units. */
     double  scale[ROLES];
     /* Names of the columns that are not used, as in pg_cloud: "id, label"; "": there are none. */
     char    passed[sizeof ((pg_cloud *) 0)->passed];
@@ -94,7 +94,7 @@ done:
 }
 
 /* ---- a line -------------------------------------------------------------------------------------------- */
-/* A finite number that fills the field. */
+/* Reads a finite number; 0: the text is none, or something follows it. */
 static int number (const char *text, double *value)
 {
     char *end;
@@ -125,7 +125,7 @@ static size_t join_units (size_t n, char **field)
     return n > MOST_FIELDS ? n : kept;
 }
 
-/* Names of the columns that a body of this dimension has: "x, y, volume, block, spacing". */
+/* Lists the names of the columns that a body of this dimension has: "x, y, volume, block, spacing". */
 static const char *names_of (size_t dim, const char *between)
 {
     static _Thread_local char text[64];
@@ -165,7 +165,7 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     if (what == ROLES) {
         if (r->places)
             return WRONG (r, "column %zu of the header is called 'z', and dimension is %zu", k + 1, dim);
-        /* whatever file a scene names: nothing is shown of one that is no table of points */
+        /* the content is not shown: an input file may name any file, also one that is no table of points */
         near = pg_nearest_name (cell, names_of (dim, "|"));
         return WRONG (r,
                       "column %zu of the header %s%.40s%s%s%s: the columns of a %zuD body are %s, in any "
@@ -183,7 +183,7 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     return PG_OK;
 }
 
-/* Coordinates and a volume must be there. */
+/* Reads the header; columns for coordinates and a volume must be there. */
 static pg_status read_header (reader *r, size_t n, char **field, size_t dim)
 {
     pg_status status = PG_OK;
@@ -205,7 +205,7 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* All arrays grow together. */
+/* Appends a point, with its values by role. All arrays grow together. */
 static pg_status add_point (reader *r, pg_cloud *c, const double *value)
 {
     pg_status status = PG_OK;
@@ -231,7 +231,7 @@ done:
     return status;
 }
 
-/* Without a header the order of columns is fixed; block and spacing may be absent. */
+/* Sets the roles of columns without a header: their order is fixed; block and spacing may be absent. */
 static pg_status settle_columns (reader *r, size_t n, size_t dim)
 {
     if (r->places && n < dim)
@@ -249,7 +249,7 @@ static pg_status settle_columns (reader *r, size_t n, size_t dim)
     return PG_OK;
 }
 
-/* The fault of a value that cannot be: says what the column was taken for. */
+/* Reports a value that is not allowed, and which role its column has. */
 static pg_status refuse_value (reader *r, size_t what, double value, const char *must, size_t dim)
 {
     return WRONG (r, "the %s %g must be %s: it stands in column %zu%s%s%s", role[what].name, value, must,
@@ -277,7 +277,7 @@ done:
     return status;
 }
 
-/* One line of the file: nothing, a header before the first point, or a point. */
+/* Reads one line of the file: blank or a comment, a header before the first point, or a point. */
 static pg_status read_line (reader *r, pg_cloud *c, char *line)
 {
     pg_status status = PG_OK;
@@ -315,8 +315,7 @@ static int by_place (const void *p, const void *q)
     return (a->line > b->line) - (a->line < b->line);
 }
 
-/* Two points at the same position are a fault. Positions are rounded to 1e-9 of the mean distance and
- * sorted. */
+/* Reports two points at one position. Positions are rounded to 1e-9 of the mean distance and sorted. */
 static pg_status find_twins (reader *r, const pg_cloud *c)
 {
     pg_status status = PG_OK;
@@ -344,7 +343,7 @@ done:
     return status;
 }
 
-/* All lines, behind a byte order mark if there is one. */
+/* Reads all lines, after a byte order mark if there is one. */
 static pg_status read_text (reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -367,7 +366,7 @@ done:
     return status;
 }
 
-/* The file is read as a whole; scenes with millions of points take some hundred MB for a moment. */
+/* Reads the file as a whole: with millions of points some hundred MB of memory are needed for a moment. */
 static pg_status read_file (pg_cloud *cloud, const pg_scene *scene, const char *key, int places)
 {
     pg_status status = PG_OK;

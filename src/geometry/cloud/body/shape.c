@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Shapes: reading from the scene, signed distance from the surface (exact, negative inside), bounding box.
+ * Shapes: reading from the input file, signed distance from the surface (exact, negative inside), bounding
+ * box.
  *
  * Distances must be true ones, not only of the right sign: pg_body_inside with a radius as tolerance also
- * answers whether a ball may meet the body (crack_read.c). For intersections of two sets whose surfaces are
- * at right angles (cylinder, prism) the distance is sqrt (p^2 + q^2) outside both, else the larger one. */
+ * tells whether a ball may meet the body (crack_meet.c). For intersections of two sets whose surfaces are at
+ * right angles (cylinder, prism) the distance is sqrt (p^2 + q^2) outside both, else the larger one. */
 #include "shape.h"
 #include "geometry/cloud/search/polygon.h"
 #include "perigal/vector.h"
@@ -18,7 +19,7 @@ static double both (double p, double q)
 }
 
 /* ---- box ----------------------------------------------------------------------------------------------- */
-/* Faults of a shape are recorded; reading goes on, so that all are found in one pass. */
+/* Reads a box. Errors are recorded and reading goes on, so that all are found in one pass. */
 static pg_status read_box (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_scene_vector (scene, 3, s->low, "%s.low", at);
@@ -51,7 +52,7 @@ static void box_box (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* ---- disk, sphere -------------------------------------------------------------------------------------- */
-/* By diameter or radius. */
+/* Reads the radius, which is given as diameter or radius. */
 static void read_radius (pg_shape *s, const pg_scene *scene, const char *at)
 {
     s->radius = pg_scene_given (scene, "%s.diameter", at) ? 0.5 * pg_scene_number (scene, "%s.diameter", at)
@@ -81,7 +82,7 @@ static void box_ball (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* ---- cylinder ------------------------------------------------------------------------------------------ */
-/* The axis is scaled to unit length. */
+/* Reads a cylinder; its axis is scaled to unit length. */
 static pg_status read_cylinder (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     read_ball (s, dim, scene, at);
@@ -103,7 +104,7 @@ static double distance_cylinder (const pg_shape *s, int dim, const double *x, do
     return both (pg_size (dim, r) - s->radius, fmax (-along, along - s->length));
 }
 
-/* A disc across the unit axis a extends R sqrt (1 - a_k^2) along axis k. */
+/* Bounding box: a disc normal to the unit axis a extends R sqrt (1 - a_k^2) along axis k. */
 static void box_cylinder (const pg_shape *s, int dim, double *low, double *high)
 {
     for (int k = 0; k < dim; k++) {
@@ -115,7 +116,7 @@ static void box_cylinder (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* ---- polygon, prism ------------------------------------------------------------------------------------ */
-/* A last vertex equal to the first closes the polygon twice and is dropped. */
+/* Reads a polygon. A last vertex equal to the first closes the polygon twice and is dropped. */
 static pg_status read_polygon (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -129,7 +130,7 @@ static pg_status read_polygon (pg_shape *s, int dim, const pg_scene *scene, cons
             pg_scene_fault (scene, at, "vertex %zu must be a pair [x, y]", i + 1);
         s->vertex[2*i] = v[0], s->vertex[2*i + 1] = v[1];
     }
-    /* closed by hand */
+    /* the last vertex repeats the first */
     if (n > 1 && s->vertex[0] == s->vertex[2*n - 2] && s->vertex[1] == s->vertex[2*n - 1]) s->nvertex = n - 1;
     const char *why = pg_polygon_fault (s->nvertex, s->vertex);
     if (why) pg_scene_fault (scene, at, "the polygon %s", why);
@@ -137,7 +138,7 @@ done:
     return status;
 }
 
-/* Its base is a polygon in the plane x, y. */
+/* Reads a prism: its base is a polygon in the x-y plane. */
 static pg_status read_prism (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     s->low[2]  = pg_scene_number (scene, "%s.low", at);
@@ -192,7 +193,7 @@ static double distance_plate (const pg_shape *s, int dim, const double *x, doubl
     return both (distance_polygon (s, dim, flat, reach), fabs (off) - 0.5 * s->length);
 }
 
-/* Box of the vertices in space, and half the thickness along the axis. */
+/* Bounding box of the vertices in 3D, and half the thickness along the axis. */
 static void box_plate (const pg_shape *s, int dim, double *low, double *high)
 {
     for (int k = 0; k < dim; k++) {
@@ -207,7 +208,7 @@ static void box_plate (const pg_shape *s, int dim, double *low, double *high)
     }
 }
 
-/* Name, lowest and highest dimension, round, functions. */
+/* The kinds of shapes: name, lowest and highest dimension, round, functions. */
 const pg_shape_type pg_shape_types[PG_FACETED + 1] = {
     [PG_BOX]      = {"box",      1, 3, 0, read_box,      distance_box,      box_box},
     [PG_DISK]     = {"disk",     2, 2, 1, read_ball,     distance_ball,     box_ball},

@@ -4,9 +4,9 @@
  *
  * The surface of an alpha shape passes through points. Where these are the middles of cells, such as the
  * points of a particle method, the body reaches half a spacing beyond them on all sides; nodes of finite
- * elements lie on the surface itself. The rim makes up for that: the shape is all places within the
- * distance `rim` of the simplices, so that faces move by it and convex corners become round with that
- * radius. */
+ * elements lie on the surface itself. The rim makes up for that: the shape is all positions within the
+ * distance `rim` of the simplices, so that faces move outwards by it and convex corners become round with
+ * that radius. */
 #include "points_file.h"
 #include "shape.h"
 #include "solid.h"
@@ -15,8 +15,8 @@
 #include <string.h>
 
 /* ---- reading ------------------------------------------------------------------------------------------- */
-/* The nodes of the elements of a mesh (n x dim, m), each once: others, such as points that only hold a load,
- * are no part of the body. */
+/* Reads the nodes of the elements of a mesh (n x dim, m), each once: other nodes, such as those that only
+ * hold a load, are no part of the body. */
 static pg_status read_nodes (double **out, size_t *n, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -37,7 +37,7 @@ done:
     return status;
 }
 
-/* The points of a CSV file, likewise; at NULL: those of the computation. */
+/* Reads the points of a CSV file (n x dim, m) that key AT.points names; at NULL: key points. */
 static pg_status read_points (double **out, size_t *n, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -52,7 +52,8 @@ done:
     return status;
 }
 
-/* What is wrong with the points is a fault of the scene, lack of memory or of Qhull is not. */
+/* Makes the alpha shape. Unsuitable points are reported as errors of the input file, lack of memory or of
+ * Qhull is not. */
 static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -81,7 +82,7 @@ done:
     return status;
 }
 
-/* Keys that are wrong have been told by their tables. */
+/* Reads the shape, unless errors have been reported for its keys. */
 pg_status shape_alpha_read (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -99,9 +100,9 @@ const pg_alpha_shape *pg_shape_alpha (const pg_shape *s)
 }
 
 /* ---- questions ----------------------------------------------------------------------------------------- */
-/* Outside of the simplices the distance is exact; inside the ball of this radius lies in the shape, whose
- * surface may be farther away where two rims meet. The search for the nearest face goes no further than
- * needed. */
+/* Outside of the simplices the distance is exact. Inside it is minus the radius of a ball that lies in the
+ * shape; the surface may be farther away where two rims meet. The search for the nearest face goes no further
+ * than `reach` needs. */
 double shape_alpha_distance (const pg_shape *s, int dim, const double *x, double reach)
 {
     double xi[3], rim = s->solid->cloud.rim, far = fabs (reach);
@@ -117,7 +118,7 @@ void shape_alpha_box (const pg_shape *s, int dim, double *low, double *high)
     for (int k = 0; k < dim; k++) low[k] -= s->solid->cloud.rim, high[k] += s->solid->cloud.rim;
 }
 
-/* Volume and surface; 0: a rim has no closed form. */
+/* Volume and surface area; returns 0 with a rim, for which there is no closed form. */
 int shape_alpha_volume (const pg_shape *s, double *volume, double *surface)
 {
     if (s->solid->cloud.rim > 0) return 0;

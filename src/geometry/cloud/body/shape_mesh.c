@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh as a shape: inside where an element holds the position, at the distance from the nearest face of
- * its surface. And as a lattice sees it: stairs, every cell of the lattice as its centre is. */
+ * A mesh as a shape: a position is inside where an element holds it; its distance is that from the nearest
+ * face of the surface. And PG_STAIRS, the mesh represented by the lattice: each cell is inside if its centre
+ * is. */
 #include "shape.h"
 #include "solid.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- mesh ---------------------------------------------------------------------------------------------- */
-/* Elements for the question inside or outside, faces for the distance. */
+/* Reads a mesh; prepares the search for elements (inside or outside) and for faces (distance). */
 pg_status shape_mesh_read (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -31,13 +32,13 @@ void shape_mesh_clear (pg_shape *s)
     s->solid = NULL;
 }
 
-/* Most positions are far from the surface, compared with reach: the depth within an element decides quickly
- * there. The distance itself is asked for only near the surface. */
+/* Most positions are far from the surface, compared with reach: their depth within an element decides
+ * quickly. The distance itself is computed only near the surface. */
 double shape_mesh_distance (const pg_shape *s, int dim, const double *x, double reach)
 {
     double near = 1000 * fabs (reach) / s->solid->part.smallest, xi[3];
     (void) dim;
-    /* Most places are far from the surface. */
+    /* Most positions are far from the surface. */
     if (near < 0.1) {
         double depth = pg_mesh_locator_depth (s->solid->locator, x, fmax (near, 1e-8));
         if (fabs (depth) >= fmax (near, 1e-8)) return depth > 0 ? -HUGE_VAL : HUGE_VAL;
@@ -70,7 +71,7 @@ size_t pg_body_meshes (const pg_body *body)
 int pg_shape_meshed (const pg_shape *s) { return s->kind == PG_MESH || s->kind == PG_ALPHA_SHAPE; }
 
 /* ---- side sets ----------------------------------------------------------------------------------------- */
-/* Side sets in the order of the file. */
+/* Name of side set k, in the order of the file; NULL: there are no more. */
 const char *pg_shape_side (const pg_shape *s, size_t k)
 {
     const pg_mesh *m = &s->solid->part.mesh;
@@ -88,7 +89,7 @@ int pg_shape_on_side (const pg_shape *s, const double *x, const char *side)
     return pg_shape_face_on_side (s, element, at, side);
 }
 
-/* Side sets of one name count together. */
+/* Several side sets of one name count as one. */
 int pg_shape_face_on_side (const pg_shape *s, int element, int at, const char *side)
 {
     const pg_mesh *m = &s->solid->part.mesh;
@@ -99,7 +100,7 @@ int pg_shape_face_on_side (const pg_shape *s, int element, int at, const char *s
 }
 
 /* ---- stairs -------------------------------------------------------------------------------------------- */
-/* The signs at all centres are computed once: later questions take constant time. */
+/* Computes the signs at the centres of all cells once: later tests take constant time. */
 pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -126,7 +127,7 @@ done:
 
 void pg_stairs_clear (pg_shape *stairs) { shape_mesh_clear (stairs); }
 
-/* The sign at cell i; beyond the lattice: outside. */
+/* Sign of the distance at the centre of cell i; 1 (outside) beyond the lattice. */
 static int sign_at (const struct pg_solid *s, const int *i)
 {
     const int *n = s->lattice.count;
@@ -134,7 +135,7 @@ static int sign_at (const struct pg_solid *s, const int *i)
     return s->sign[((size_t) i[2] * (size_t) n[1] + (size_t) i[1]) * (size_t) n[0] + (size_t) i[0]];
 }
 
-/* Only the sign matters: any distance is infinite. */
+/* The distance is infinite, as only its sign is used. */
 double shape_stairs_distance (const pg_shape *s, int dim, const double *x, double reach)
 {
     const pg_lattice *l = &s->solid->lattice;
@@ -148,8 +149,8 @@ double shape_stairs_distance (const pg_shape *s, int dim, const double *x, doubl
     return sign == 0 ? 0 : sign > 0 ? HUGE_VAL : -HUGE_VAL;
 }
 
-/* A centre on the surface belongs to the body: of an added shape it is inside, of a subtracted one
- * outside. */
+/* Is one of the two cells at this face inside the shape and the other outside? A centre on the surface
+ * belongs to the body: it is inside an added shape and outside a subtracted one. */
 int pg_stairs_step (const pg_shape *stairs, const int *i, int face)
 {
     /* a centre on the surface belongs to the body */

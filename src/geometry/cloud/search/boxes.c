@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The boxes of boxes.h: sorting by counting, O(n); reading off what a place sees, row by row. */
+ * The boxes of boxes.h: sorting by counting, O(n), and finding the points near a position, row by row. */
 #include "boxes.h"
 #include <math.h>
 #include <string.h>
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* Boxes at most, for each point and in all: a cloud that fills its surroundings has about one for each. */
+/* The most boxes: so many for each point, and a number that is always allowed. A cloud without empty space
+ * has about one box for each point. */
 enum { BOXES_A_POINT = 16, BOXES_AT_LEAST = 4096 };
 
 /* ---- sorting ------------------------------------------------------------------------------------------- */
 /* The box that a coordinate lies in along one axis. The same expression finds boxes for points and for the
- * ends of what a place sees; it never decreases with the coordinate, so that rounding loses no point. */
+ * ends of a neighbourhood; it never decreases with the coordinate, so that rounding loses no point. */
 INLINE size_t box_along (const pg_boxes *b, int axis, double x)
 {
     double at = (x - b->low[axis]) * b->inverse[axis];
@@ -27,8 +28,8 @@ static size_t box_of (const pg_boxes *b, const double *x)
     return box;
 }
 
-/* Lays boxes of this width over the points, half a box beyond them, so that the layers of a lattice lie in
- * the middle of theirs. 0: they would be too many. */
+/* Lays boxes of this width over the points, half a box beyond them, so that each layer of a lattice lies in
+ * the middle of a layer of boxes. 0: there would be too many boxes. */
 static int lay (pg_boxes *b, const pg_cloud *cloud, const int *list, const double *width)
 {
     double boxes = 1, most = BOXES_A_POINT * (double) b->n + BOXES_AT_LEAST;
@@ -82,8 +83,8 @@ void pg_boxes_clear (pg_boxes *b)
 }
 
 /* ---- what a place sees --------------------------------------------------------------------------------- */
-/* Distance along an axis between the layer of boxes `at` and the stretch low .. high, m; 0 where they meet. A
- * little less than it is, for the borders of boxes are rounded. */
+/* Distance along an axis between layer `at` of boxes and the interval low .. high, m; 0 where they meet.
+ * Slightly reduced, as the borders of boxes are rounded. */
 static double gap (const pg_boxes *b, int axis, size_t at, double low, double high)
 {
     double step = 1 / b->inverse[axis], from = b->low[axis] + (double) at * step, to = from + step,
@@ -92,7 +93,7 @@ static double gap (const pg_boxes *b, int axis, size_t at, double low, double hi
     return away > 0 ? away : 0;
 }
 
-/* Row after row of boxes that come within reach; of balls each row gives the stretch that they can cut. */
+/* Visits row after row of boxes within reach; for balls each row is cut to the range that they can reach. */
 size_t pg_boxes_near (const pg_boxes *b, const double *low, const double *high, int ball, int *item)
 {
     size_t found = 0, first[3] = { 0 }, last[3] = { 0 };

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Distances between cracks: of segments and outlines in the plane, of plane polygons in space; and their
- * sizes. */
+ * Distances between cracks: of segments and outlines in 2D, of plane polygons in 3D; and their sizes. */
 #include "crack_distance.h"
 #include "polygon.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
-/* Vertex i in space: z = 0 in the plane. */
+/* Vertex i as a 3D position, m: z = 0 in 2D. */
 static void vertex_of (const pg_crack *c, int dim, size_t i, double *x)
 {
     x[2] = 0;
     for (int k = 0; k < dim; k++) x[k] = c->vertex[(size_t) dim * i + (size_t) k];
 }
 
-/* Number of edges: one of a segment, else as many as vertices. */
+/* Number of edges: one for a segment, else as many as vertices. */
 static size_t edges_of (const pg_crack *c) { return c->kind == PG_CRACK_SEGMENT ? 1 : c->nvertex; }
 
 static void edge_of (const pg_crack *c, int dim, size_t i, double *a, double *b)
@@ -22,8 +21,8 @@ static void edge_of (const pg_crack *c, int dim, size_t i, double *a, double *b)
     vertex_of (c, dim, i, a), vertex_of (c, dim, (i + 1) % c->nvertex, b);
 }
 
-/* Distance of the segments a b and c d (Ericson 2004, section 5.1.9): s and t on both, one held to its ends
- * after the other. */
+/* Distance of the segments a b and c d (Ericson 2004, section 5.1.9): parameters s and t on both, clamped to
+ * their ends one after the other. */
 static double between_edges (const double *a, const double *b, const double *c, const double *d)
 {
     double u[3], v[3], w[3];
@@ -41,8 +40,8 @@ static double between_edges (const double *a, const double *b, const double *c, 
     return sqrt (pg_dot3 (w, w));
 }
 
-/* Is the foot of x on the plane of the polygon inside of it? By crossing number in the projection along the
- * axis nearest to the normal. */
+/* Does x, projected onto the plane of the polygon, lie inside it? By crossing number in the projection along
+ * the axis nearest to the normal. */
 static int foot_inside (const pg_crack *c, const double *x)
 {
     int k = 0, in = 0;
@@ -122,7 +121,7 @@ double crack_length (const pg_crack *c, int dim)
     return most;
 }
 
-/* Area of a plane polygon in space, by its area vector. */
+/* Area of a plane polygon in 3D by its area vector, m^2. */
 static double area_of (const pg_crack *c)
 {
     double sum[3] = { 0 };

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lines of tables as spreadsheets and scripts write them: fields apart by semicolons, commas or blanks, with
- * or without quotes. Where semicolons stand between numbers a comma is their decimal mark. */
+ * Lines of tables as spreadsheets and scripts write them: fields separated by semicolons, commas or blanks,
+ * with or without quotes. Where semicolons separate numbers a comma is the decimal mark. */
 #include "csv_line.h"
 #include <string.h>
 
 static int is_digit (char c) { return c >= '0' && c <= '9'; }
 
-/* "1,5" becomes "1.5": digits about one comma, and no point. */
+/* Replaces a decimal comma by a point, "1,5" by "1.5": digits on both sides of the only comma, and no
+ * point. */
 static void mend_mark (char *s)
 {
     char *comma = strchr (s, ',');

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Functions of the library, as X (name). */
+/* List of the functions that are used of the library, for a macro X (name). */
 #define CALLS(X) X (qh_zero) X (qh_new_qhull) X (qh_freeqhull) X (qh_memfreeshort)
 static struct {
 #define X(name) __typeof__ (name) *name;
@@ -60,8 +60,8 @@ static int by_value (const void *p, const void *q)
     return (*a > *b) - (*a < *b);
 }
 
-/* The median of n numbers; *regular: 1 where nine tenths of them are no less than it to 1 %, and no more, as
- * the distances in a lattice. */
+/* The median of n numbers; *regular: 1 if nine tenths of them lie within 1 % of each other, as the distances
+ * in a lattice. */
 static pg_status median (size_t n, const double *value, double *out, int *regular)
 {
     pg_status status = PG_OK;
@@ -76,7 +76,8 @@ done:
     return status;
 }
 
-/* Points on one line or in one plane have no triangulation of their space. */
+/* Reports points on one line or in one plane (to 1e-3 of `usual`, the usual distance, m): they cannot be
+ * triangulated. */
 static pg_status refuse_flat (int dim, size_t n, const double *x, double usual)
 {
     pg_status status = PG_OK;
@@ -93,8 +94,8 @@ done:
 }
 
 /* ---- Qhull --------------------------------------------------------------------------------------------- */
-/* The points moved at random, in units of the largest extent about the middle of the box: no scale or place
- * is special to Qhull then. */
+/* Moves the points at random and scales them by the largest extent about the middle of their box, so that
+ * Qhull gives the same result at any scale and position. */
 static pg_status move_points (double **out, int dim, size_t n, const double *x, const double *apart,
                               double *unit)
 {
@@ -153,8 +154,8 @@ static double radius_of (int dim, const double *const *x, double *sign)
     return dim == 2 ? radius_of_triangle (e, sign) : radius_of_tetrahedron (e, sign);
 }
 
-/* One simplex from a facet of the lower hull. Its orientation is that of the moved points, its radius that of
- * the points themselves unless it is nearly flat: then the moves decide what it is. */
+/* Makes one simplex from a facet of the lower hull. Its orientation is that of the moved points, its radius
+ * that of the points themselves unless it is nearly flat: then that of the moved points. */
 static void take_facet (pg_delaunay *d, size_t s, qhT *qh, facetT *facet, const int *number, double unit,
                         const double *given)
 {
@@ -213,9 +214,9 @@ static void first_line (char *out, size_t size, const char *text)
     snprintf (out, size, "%.*s", (int) strcspn (text, "\n"), text);
 }
 
-/* QJ: where the moves did not suffice, Qhull begins again with larger ones of its own, until every facet is a
- * simplex; on a lattice of a million points that takes six attempts from the least one, and none from 5e-3 of
- * the spacing. Qbb: the lifted coordinate has the extent of the others. */
+/* Option QJ: where the random moves did not suffice, Qhull begins again with larger ones of its own, until
+ * every facet is a simplex; on a lattice of a million points that takes six attempts from its least move, and
+ * none from 5e-3 of the spacing. Option Qbb: the lifted coordinate has the extent of the others. */
 pg_status pg_delaunay_create (pg_delaunay *out, int dim, size_t n, const double *x, const double *apart)
 {
     pg_status status = PG_OK;

@@ -9,7 +9,7 @@ typedef struct {
     int     dim;
     /* Number of simplices. */
     size_t  n;
-    /* Their points, so that every one has a positive orientation (n x (dim + 1)). */
+    /* The points at the corners of each simplex, in positive orientation (n x (dim + 1)). */
     int    *vertex;
     /* The simplex beyond the face that lies opposite to vertex k; -1: none, the face is part of the hull
      * (n x (dim + 1)). */

@@ -4,7 +4,7 @@
 #include "polygon.h"
 #include <math.h>
 
-/* As a fan of triangles from the first vertex: no digits are lost far from the origin. */
+/* Area as a fan of triangles from the first vertex: no digits are lost far from the origin. */
 double pg_polygon_area (size_t n, const double *v)
 {
     double sum = 0;
@@ -15,7 +15,7 @@ double pg_polygon_area (size_t n, const double *v)
     return 0.5 * sum;
 }
 
-/* Counts the edges that a ray from x along the axis crosses. */
+/* Counts the edges that a ray from x along the x axis crosses. */
 int pg_polygon_inside (size_t n, const double *v, const double *x)
 {
     int in = 0;
@@ -70,7 +70,7 @@ static int edges_meet (const double *a, const double *b, const double *c, const 
            || (!s && within (c, d, b));
 }
 
-/* Tests all pairs of edges; polygons of scenes are small. */
+/* Tests all pairs of edges; polygons of input files are small. */
 const char *pg_polygon_fault (size_t n, const double *v)
 {
     if (n < 3) return "needs three vertices or more";
@@ -87,7 +87,7 @@ const char *pg_polygon_fault (size_t n, const double *v)
             if (edges_meet (v + 2 * i, v + 2 * (i + 1), v + 2 * j, v + 2 * ((j + 1) % n)))
                 return "touches or crosses itself";
         }
-    /* An area below 1e-9 of the square of the extent is none. */
+    /* An area below 1e-9 of the square of the extent counts as zero. */
     double size = fmax (high[0] - low[0], high[1] - low[1]);
     return fabs (pg_polygon_area (n, v)) > 1e-9 * size * size ? NULL : "has no area";
 }

@@ -7,7 +7,7 @@
  */
 enum { WORDS = 624, FAR = 397 };
 
-/* The words that follow from a seed (the initialisation of 2002). */
+/* Initialises the generator from a seed (the initialisation of 2002). */
 void random_start (random_source *r, uint32_t seed)
 {
     r->word[0] = seed;
@@ -16,7 +16,7 @@ void random_start (random_source *r, uint32_t seed)
     r->at = WORDS;
 }
 
-/* The next WORDS words. */
+/* Generates the next WORDS words. */
 static void refill (random_source *r)
 {
     for (int i = 0; i < WORDS; i++) {
@@ -87,8 +87,8 @@ void settled_angle (double angle, double *cosine, double *sine)
 
 /* ---- distributions --------------------------------------------------------------------------------------
  */
-/* A place in the unit circle, whose squared distance from its middle is uniform. The second number is not
- * kept, so that each call takes from the generator alone. */
+/* A point is drawn in the unit circle; its squared distance from the centre is uniform. The second number of
+ * the polar method is not kept, so that calls do not depend on each other. */
 double random_normal (random_source *r)
 {
     double u, v, s;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: random numbers that are the same on every machine: a generator of whole numbers (Mersenne twister,
  * Matsumoto and Nishimura 1998) and distributions from additions, multiplications, divisions and square roots
- * alone, which IEEE 754 settles to the last bit. log, exp, sin and cos of the C library are not settled: two
- * libraries may differ in the last digit, and a crack that just fits on one machine might not on another. */
+ * alone, which IEEE 754 defines to the last bit. log, exp, sin and cos of the C library are not so defined:
+ * two libraries may differ in the last digit, and a crack that just fits on one machine might not on
+ * another. */
 #ifndef PERIGAL_CLOUD_RANDOM_H
 #define PERIGAL_CLOUD_RANDOM_H
 #include <stdint.h>
