@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* start has an entry more than there are elements: the nodes of element e are start[e] .. start[e + 1] -
- * 1 of list. */
+/* Array `start` has one entry more than there are elements: the nodes of element e are start[e] .. start[e +
+ * 1] - 1 of list. */
 pg_status pg_mesh_builder_create (pg_mesh_builder **out, const char *path)
 {
     pg_status status = PG_OK;
@@ -61,7 +61,7 @@ done:
     return status;
 }
 
-/* Whether the nodes exist is asked only at the end, since files may give elements first. */
+/* Whether the nodes exist is checked only at the end, since files may give elements first. */
 pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group,
                                    long line)
 {
@@ -85,8 +85,8 @@ done:
     return status;
 }
 
-/* Control characters become _, as names appear in messages of one line; what is too long is cut between
- * characters of UTF-8. */
+/* Copies a name. Control characters become _, as names appear in messages of one line; what is too long is
+ * cut between characters of UTF-8. */
 static void copy_text (char *to, size_t size, const char *name)
 {
     size_t n = strlen (name);
@@ -97,7 +97,7 @@ static void copy_text (char *to, size_t size, const char *name)
 
 static void copy_name (char to[64], const char *name) { copy_text (to, 64, name); }
 
-/* Several names for one group are kept; builder_name chooses. */
+/* Stores a name of a group; there may be several, of which builder_name chooses one. */
 pg_status pg_mesh_builder_group (pg_mesh_builder *m, int dim, long group, const char *name)
 {
     pg_status status = PG_OK;
@@ -110,7 +110,7 @@ done:
     return status;
 }
 
-/* Begins a set at entry `first`. */
+/* Begins a set whose first entry is number `first`. */
 static void name_list (mesh_list *l, const char *name, long id, size_t first)
 {
     memset (l, 0, sizeof *l);
@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-/* Nodes by the numbers of the file; the same one may come twice. */
+/* Adds a node by its number in the file; the same one may come twice. */
 pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node)
 {
     pg_status status = PG_OK;
@@ -183,7 +183,7 @@ done:
     return status;
 }
 
-/* The first counts. */
+/* Stores the first element type for plane strain; later ones are ignored. */
 void pg_mesh_builder_plane_strain (pg_mesh_builder *m, const char *type)
 {
     if (!*m->plane_strain) copy_text (m->plane_strain, sizeof m->plane_strain, type);
@@ -250,7 +250,8 @@ void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *nod
         replace (m->set_node, m->nset_node, node);
     }
     if (element) {
-        replace (m->element_id, m->n, element);        /* by their place in the file: some are left out */
+        /* by their order in the file: some elements have been left out */
+        replace (m->element_id, m->n, element);
         replace (m->side_element, m->nside, element);
     }
 }
@@ -278,7 +279,7 @@ static int by_group_and_name (const void *p, const void *q)
     return c ? c : strcmp (((const mesh_group *) p)->name, ((const mesh_group *) q)->name);
 }
 
-/* The groups have been sorted; the first of equal ones counts. */
+/* Finds the name of a group among the sorted groups; of several names the first is taken. */
 void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
 {
     snprintf (name, 64, "%ld", group);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: a mesh under construction. Until pg_mesh_builder_finish everything is in the numbers of the
- * file. */
+ * Private: a mesh under construction. Until pg_mesh_builder_finish nodes and elements are known by the
+ * numbers that the file gives them. */
 #ifndef MESH_BUILDER_H
 #define MESH_BUILDER_H
 #include "perigal/mesh.h"
@@ -15,13 +15,13 @@ typedef struct {
     size_t node, x, element, start, group, line, kind, list, groups, set, side_set, set_node, side,
         side_element, passed, foreign;
 } mesh_capacities;
-/* What pg_mesh_builder_finish makes of the numbers of the file. */
+/* Intermediate results of pg_mesh_builder_finish. */
 typedef struct {
     /* Largest dimension of all elements. */
     int        dim;
     /* Finds nodes by number. */
     pg_id_table   nodes;
-    /* The node of each entry of `list`, as a place in node_id (nlist). */
+    /* The node of each entry of `list`, as an index into node_id (nlist). */
     int       *index;
     /* Number of each element among the solid ones; -1: it is of lower dimension; -2: it repeats another one
      * (n). */
@@ -40,7 +40,7 @@ struct pg_mesh_builder {
     size_t     nnode;
     /* Numbers of the nodes (nnode). */
     long      *node_id;
-    /* Positions (nnode x 3). */
+    /* Positions of the nodes, in the unit of the file (nnode x 3). */
     double    *x;
     /* Number of elements of all dimensions. */
     size_t     n;
@@ -63,15 +63,16 @@ struct pg_mesh_builder {
     long      *set_node, *side_element;
     int       *side;
     size_t     npassed, nforeign;
-    /* First element type meant for plane strain, "": none; what is passed over; elements of unknown types. */
+    /* First element type that is meant for plane strain, "": none; parts of the file that are ignored;
+     * elements of unknown types. */
     char       plane_strain[32];
     pg_mesh_passed  *passed;
     pg_mesh_foreign *foreign;
     mesh_finish made;
 };
 
-/* Steps of pg_mesh_builder_finish, in this order: numbers become places, the dimension and repeated
- * elements are found; solid elements, nodes in use, orientation and blocks; node sets and side sets. */
+/* Steps of pg_mesh_builder_finish, in this order: numbers become indices, the dimension and repeated elements
+ * are found; solid elements, nodes in use, orientation and blocks; node sets and side sets. */
 pg_status builder_resolve (pg_mesh_builder *m);
 pg_status builder_solids  (pg_mesh_builder *m);
 pg_status builder_sets    (pg_mesh_builder *m);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, and
- * the nodes of every side set. Sets of equal name are one, except a node set and a side set of the file that
- * have other nodes: formats name them apart, as numbers of both begin with 1, and so do we (NAME_nodes,
- * NAME_sides). Members are collected as integers (set, member)
- * in one list; sorting it puts the sets in order and their members too, and shows repetitions.
+ * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, and the
+ * nodes of every side set. Sets of equal name are one, except a node set and a side set of the file that have
+ * other nodes: these are renamed NAME_nodes and NAME_sides, as formats number both from 1. Members are
+ * collected as integers (set, member) in one list; sorting it puts the sets in order and their members too,
+ * and shows repetitions.
  *
  * An element of dimension dim - 1 that is a face of a solid element is a side in the set that its group
  * names; whether it is a face is found by its corners, so that first and second order may be mixed. */
@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A set before equal names are united. place: order of appearance. sides: it is a side set as well. */
+/* A set before sets of equal name are united. place: its number in the order of appearance. sides: 1: it is a
+ * side set as well. */
 typedef struct { char name[64]; long id; size_t place; int sides; } named;
 /* A group of elements that names a set. */
 typedef struct { int dim; long group; size_t set; } source;
@@ -27,7 +28,7 @@ typedef struct {
     /* Number of sets before equal names are united, and capacity. */
     size_t  n, cap;
     named  *set;
-    /* Number of each in the mesh (n). */
+    /* Number of each of these sets in the mesh (n). */
     size_t *final;
     /* Number of sets in the mesh. */
     size_t  nfinal;
@@ -36,10 +37,10 @@ typedef struct {
     pairs   nodes, sides;
 } builder;
 
-/* So that the set fits into its bits of a pair. */
+/* Most sets, so that the number of a set fits into its bits of a pair. */
 enum { MOST_SETS = 1 << 28 };
 
-/* Repetitions are removed after sorting. */
+/* Appends a member; repetitions are removed after sorting. */
 static pg_status add_pair (pairs *p, uint64_t pair)
 {
     pg_status status = PG_OK;
@@ -82,7 +83,8 @@ done:
     return status;
 }
 
-/* Repeated solid elements first, then faces, lines, points. */
+/* Orders sources by descending dimension (repeated solid elements, then faces, lines, points), then by
+ * group. */
 static int by_source (const void *p, const void *q)
 {
     const source *a = p, *b = q;
@@ -96,7 +98,7 @@ static int names_a_set (const pg_mesh_builder *m, size_t e)
     return m->group[e] && m->made.solid[e] < 0;
 }
 
-/* One set for each group of such elements. */
+/* Adds one set for each group of the elements that only name a set. */
 static pg_status add_sources (builder *b)
 {
     pg_status status = PG_OK;
@@ -122,7 +124,7 @@ done:
     return status;
 }
 
-/* Equal names in the order of their appearance. */
+/* Orders sets by name, equal names by their appearance. */
 static int by_name (const void *p, const void *q)
 {
     const named *a = p, *b = q;
@@ -136,7 +138,7 @@ static int by_place (const void *p, const void *q)
     return (a->place > b->place) - (a->place < b->place);
 }
 
-/* Sets of equal name get the number of the first of them. As final[k] <= k, the sets can be moved in
+/* Unites sets of equal name under the number of the first of them. As final[k] <= k, the sets can be moved in
  * place. */
 static pg_status unite (builder *b)
 {
@@ -182,7 +184,7 @@ static int by_int (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
-/* Sorts n numbers, drops repetitions and -1; how many are left. */
+/* Sorts n numbers, drops repetitions and -1; returns how many are left. */
 static size_t sort_ints (int *list, size_t n)
 {
     size_t left = 0;
@@ -222,7 +224,7 @@ done:
     return status;
 }
 
-/* Node sets and side sets of one name with other nodes get names of their own. */
+/* Renames a node set and a side set of one name whose nodes differ. */
 static pg_status tell_apart (builder *b, const pg_id_table *elements)
 {
     pg_status status = PG_OK;
@@ -244,7 +246,7 @@ done:
     return status;
 }
 
-/* Node sets, side sets, groups, in this order. */
+/* Collects the names of node sets, side sets and groups, in this order. */
 static pg_status collect_names (builder *b, const pg_id_table *elements)
 {
     pg_status status = PG_OK;
@@ -260,7 +262,7 @@ done:
 }
 
 /* ---- sets of the file ---------------------------------------------------------------------------------- */
-/* Members of the node sets of the file. A number that the file has no node for is a fault. */
+/* Adds the members of the node sets of the file. A number that no node of the file has is an error. */
 static pg_status add_node_sets (builder *b)
 {
     pg_status status = PG_OK;
@@ -277,7 +279,7 @@ done:
     return status;
 }
 
-/* Members of the side sets of the file. */
+/* Adds the members of the side sets of the file. */
 static pg_status add_side_sets (builder *b, const pg_id_table *elements)
 {
     pg_status status = PG_OK;
@@ -310,7 +312,7 @@ static size_t set_of (const builder *b, size_t e)
     return ((source *) pg_search (&key, b->source, b->nsource, sizeof key, by_source))->set;
 }
 
-/* All nodes of these elements join their sets. */
+/* Adds the nodes of elements that only name a set to that set. */
 static pg_status add_lower_nodes (builder *b)
 {
     pg_status status = PG_OK;
@@ -329,7 +331,7 @@ done:
  * found. */
 typedef struct { int key[4]; size_t set; int found; } lower;
 
-/* Order by corners only; then also by set. */
+/* Orders elements by their corners. */
 static int by_corners (const void *p, const void *q)
 {
     const lower *a = p, *b = q;
@@ -337,7 +339,7 @@ static int by_corners (const void *p, const void *q)
     return 0;
 }
 
-/* Elements with the same corners in the order of their sets. */
+/* Orders elements by their corners, those with the same corners by their sets. */
 static int by_corners_and_set (const void *p, const void *q)
 {
     const lower *a = p, *b = q;
@@ -374,15 +376,15 @@ done:
     return status;
 }
 
-/* Are all corners of this face marked? A quick test before the search. */
+/* Are all corners of this face marked? A quick test before the search in the list. */
 static int all_marked (const unsigned char *mark, const int key[4])
 {
     for (int k = 0; k < 4 && key[k] >= 0; k++) if (!mark[key[k]]) return 0;
     return 1;
 }
 
-/* Elements that are faces of solid ones become sides; a face between two solid elements becomes a side of
- * the first. */
+/* Adds the elements that are faces of solid ones as sides; a face between two solid elements becomes a side
+ * of the first. */
 static pg_status add_lower_sides (builder *b)
 {
     pg_status status = PG_OK;
@@ -416,7 +418,7 @@ static int by_pair (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
-/* Sorts, and drops repetitions. */
+/* Sorts the members and drops repetitions. */
 static void sort_pairs (pairs *p)
 {
     size_t n = 0;
@@ -432,7 +434,7 @@ static size_t run_end (const pairs *p, size_t first, size_t set, int shift)
     return first;
 }
 
-/* Every set has a node set, also one that is empty. */
+/* Writes the node sets; every set has one, also one that is empty. */
 static pg_status put_nodes (builder *b)
 {
     pg_status status = PG_OK;
@@ -452,7 +454,7 @@ done:
     return status;
 }
 
-/* Sets without sides become no side set, unless the file gave them as one. */
+/* Writes the side sets. Sets without sides become no side set, unless the file gave them as one. */
 static pg_status put_sides (builder *b)
 {
     pg_status status = PG_OK;
@@ -476,7 +478,7 @@ done:
     return status;
 }
 
-/* Elements must have different numbers. */
+/* Reports two elements with the same number. */
 static pg_status check_ids (const pg_mesh_builder *m, pg_id_table *elements)
 {
     pg_status status = PG_OK;

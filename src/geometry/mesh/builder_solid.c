@@ -18,7 +18,7 @@
 static int dimension (const pg_mesh_builder *m, size_t e) { return pg_element_types[m->kind[e]].dim; }
 static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 1] - m->start[e]; }
 
-/* A fault of element e, with its place in the file and its kind. */
+/* Fails with an error of element e that names its position in the file and its kind. */
 #define ELEMENT_FAIL(m, e, ...) \
     do { \
         char at_[512], why_[400]; \
@@ -69,7 +69,7 @@ static int same_nodes (const pg_mesh_builder *m, size_t e, size_t f)
     return !memcmp (a, b, n * sizeof *a);
 }
 
-/* Scatters the bits of a number. Sums of mixed numbers do not depend on the order of the nodes. */
+/* Hash of a number. Sums of hashed numbers do not depend on the order of the nodes. */
 static uint64_t mix (uint64_t h)
 {
     h = (h ^ (h >> 31)) * UINT64_C (0x7FB5D329728EA185);
@@ -77,8 +77,8 @@ static uint64_t mix (uint64_t h)
     return h ^ (h >> 33);
 }
 
-/* Some files write an element once for each group it belongs to: the first is the element, later ones only
- * join a set. Found by a hash table over the sets of nodes. */
+/* Numbers the solid elements. Some files write an element once for each group it belongs to: the first is the
+ * element, later ones only join a set; a hash table over the nodes of elements finds them. */
 static pg_status number_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -108,7 +108,7 @@ done:
     return status;
 }
 
-/* Faults of a file without nodes, or without elements that have an extent, are found first. */
+/* Files without nodes, or without elements that have an extent, are refused first. */
 pg_status builder_resolve (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -151,8 +151,8 @@ done:
     return status;
 }
 
-/* A mesh of lines lies parallel to the x axis, one of triangles and quadrilaterals parallel to the plane x,
- * y, to 1e-9 of its size. */
+/* Checks that a mesh of lines lies parallel to the x axis, and one of triangles and quadrilaterals parallel
+ * to the x-y plane, to 1e-9 of its size. */
 static pg_status check_plane (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -201,7 +201,8 @@ done:
     return status;
 }
 
-/* Size factor of the map at the centre of element e. flat: below 1e-12 of the cube around the element. */
+/* Size factor (determinant of the Jacobian) of the map at the centre of element e. *flat: 1: it is below
+ * 1e-12 of the cube around the element. */
 static double centre_size (const pg_mesh *out, size_t e, int *flat)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3], longest = 0;
@@ -221,7 +222,7 @@ static double centre_size (const pg_mesh *out, size_t e, int *flat)
     return size;
 }
 
-/* Mirrors elements with a negative size; a flat element is a fault. */
+/* Mirrors elements with a negative size; a flat element is an error. */
 static pg_status turn_outside_out (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -255,7 +256,7 @@ static int by_long (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
-/* Groups of the solid elements, ascending, each once. */
+/* Lists the groups of the solid elements, ascending, each once. */
 static pg_status list_groups (const pg_mesh_builder *m, size_t *n, long **group)
 {
     pg_status status = PG_OK;
@@ -272,7 +273,7 @@ done:
     return status;
 }
 
-/* Blocks in the order of their numbers. */
+/* Makes the blocks, in the order of their numbers. */
 static pg_status make_blocks (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -298,7 +299,8 @@ done:
     return status;
 }
 
-/* Orientation needs the nodes in place; blocks come last because they need no more than the elements. */
+/* Makes the solid elements. Orientation needs the nodes in place; blocks come last because they need no more
+ * than the elements. */
 pg_status builder_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;

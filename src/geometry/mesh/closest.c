@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Least distance from a place to an element: Gauss-Newton for |x (xi) - place|^2 under the bounds of the
- * reference element. Each step is a small quadratic programme, min |J d - r|^2 with xi + d within the
- * bounds, solved by trying all sets of bounds that may hold with equality (at most three of at most six):
- * with so few that is simpler and safer than an active-set method. */
+ * Least distance from a position to an element: Gauss-Newton for |x (xi) - place|^2 under the bounds of the
+ * reference element. Each step is a small quadratic programme, min |J d - r|^2 with xi + d within the bounds,
+ * solved by trying all sets of bounds that may hold with equality (at most three of at most six): with so few
+ * that is simpler and safer than an active-set method. */
 #include "closest.h"
 #include "element.h"
 #include <math.h>
@@ -12,7 +12,7 @@ enum { BOUNDS = 6, UNKNOWNS = 6 };
 /* The bounds g[k] . xi <= b[k] of a reference element (n of them). */
 typedef struct { int dim, n; double g[BOUNDS][3], b[BOUNDS]; } bounds;
 
-/* z >= 0, and four faces that meet in the apex: z + x <= 1 and so on. */
+/* The bounds of a pyramid: z >= 0, and four faces that meet in the apex: z + x <= 1 and so on. */
 static bounds bounds_of_pyramid (void)
 {
     bounds s = { .dim = 3, .n = 5, .g = { { 0, 0, -1 } } };
@@ -20,7 +20,7 @@ static bounds bounds_of_pyramid (void)
     return s;
 }
 
-/* Axes of a simplex: xi >= 0 and their sum <= 1; other axes: -1 <= xi <= 1. */
+/* The bounds of an element: xi >= 0 and sum <= 1 on the axes of a simplex; -1 <= xi <= 1 on other axes. */
 static bounds bounds_of (pg_element kind)
 {
     if (kind == PG_PYRAMID5) return bounds_of_pyramid ();
@@ -36,7 +36,7 @@ static bounds bounds_of (pg_element kind)
     return s;
 }
 
-/* Gaussian elimination with pivoting, right-hand side in column n; 0: singular. */
+/* Solves A x = right-hand side (column n) by Gaussian elimination with pivoting; 0: singular. */
 static int solve (int n, double A[UNKNOWNS][UNKNOWNS + 1], double *x)
 {
     for (int k = 0; k < n; k++) {
@@ -89,7 +89,7 @@ static int try_set (const bounds *s, double H[3][3], const double c[3], const do
     return 1;
 }
 
-/* The optimum, fewest active bounds first. 0: none was found (J is singular). */
+/* Finds the optimum, trying the fewest active bounds first. 0: none was found (J is singular). */
 static int next_point (const bounds *s, double H[3][3], const double c[3], const double *xi, double to[3])
 {
     for (int size = 0; size <= s->dim; size++)
@@ -98,8 +98,8 @@ static int next_point (const bounds *s, double H[3][3], const double c[3], const
     return 0;
 }
 
-/* r = place - x (xi), H = J'J / s, c = J'r / s with s = trace J'J, so that tolerances have no unit; returns
- * |r|^2. */
+/* Writes H = J'J / s, c = J'r / s with r = place - x (xi) and s = trace J'J, so that tolerances have no unit;
+ * returns |r|^2. */
 static double normal_equations (pg_element kind, int dim, const double *x, const double *place,
                                 const double *xi, double H[3][3], double c[3])
 {
@@ -127,7 +127,7 @@ static double normal_equations (pg_element kind, int dim, const double *x, const
     return square;
 }
 
-/* A step that does not come nearer is halved; none that does ends the search. */
+/* A step that does not come nearer is halved; if no halved step does either, the search ends. */
 double closest_in_element (pg_element kind, int dim, const double *x, const double *place, double *xi)
 {
     enum { STEPS = 30, HALVINGS = 6 };

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Name, dimension, nodes, corners, order, faces, edges. */
+/* The columns: name, dimension, numbers of nodes and corners, order, numbers of faces and edges. */
 const pg_element_type pg_element_types[PG_ELEMENTS] = {
     [PG_POINT1]  = { "point1",  0,  1, 1, 1, 0,  0 },
     [PG_BAR2]    = { "bar2",    1,  2, 2, 1, 2,  1 },
@@ -40,8 +40,8 @@ static const family family_of[PG_ELEMENTS] = {
 };
 
 /* ---- faces and edges ----------------------------------------------------------------------------------- */
-/* Nodes of each face of the richest element of a shape: corners, middles, centre; poorer elements take
- * fewer. */
+/* Nodes of each face, for the element of a shape with the most nodes: corners, middles, centre; smaller
+ * elements take the first of them. */
 static const signed char face_nodes[FAMILIES][6][9] = {
     [BAR] = { { 0 }, { 1 } },
     [TRI] = { { 0, 1, 3 }, { 1, 2, 4 }, { 2, 0, 5 } },
@@ -257,8 +257,8 @@ static void shape_simplex (pg_element kind, const double *xi, double *N, double 
     }
 }
 
-/* Triangle (corners p, q) times line; s: end of the line, 0 half-way. Corners of wedge15: L (1 + s t) (2 L
- * - 2 + s t) / 2. */
+/* Wedges: a triangle (corners p, q) times a line; s: end of the line, 0: half-way. Corners of wedge15: L (1 +
+ * s t) (2 L - 2 + s t) / 2. */
 static void shape_wedge (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];
@@ -269,7 +269,7 @@ static void shape_wedge (pg_element kind, const double *xi, double *N, double *d
         if (i >= 6) pg_element_edge (kind, i - 6, end);
         /* Corners 0 to 2 below, 3 to 5 above; an edge between both is upright. */
         int p = end[0] % 3, q = end[1] % 3, s = end[0] / 3 != end[1] / 3 ? 0 : end[0] < 3 ? -1 : 1;
-        /* f: N; df: by L_p, L_q, t */
+        /* f: N; df: its derivatives with respect to L_p, L_q and t */
         double side = (1 + s * t) / 2, bubble = (1 - t) * (1 + t), f, df[3] = { 0 };
         if (type->order == 1) f = L[p] * side, df[0] = side, df[2] = L[p] * s / 2;
         else if (s == 0) f = L[p] * bubble, df[0] = bubble, df[2] = -2 * t * L[p];
@@ -287,8 +287,9 @@ static void shape_wedge (pg_element kind, const double *xi, double *N, double *d
     }
 }
 
-/* N of the base (1 - z + s x + t y + s t x y / (1 - z)) / 4, s and t the signs of the corner; of the apex z.
- * The quotient has no limit at the apex: 0, its mean over the directions there, is taken. */
+/* Pyramid: N of base corners is (1 - z + s x + t y + s t x y / (1 - z)) / 4, s and t the signs of the corner;
+ * N of the apex is z. The quotient has no limit at the apex: 0, its mean over the directions there, is
+ * taken. */
 static void shape_pyramid (pg_element kind, const double *xi, double *N, double *dN)
 {
     double x = xi[0], y = xi[1], z = xi[2], up = 1 - z, over = fabs (up) > 1e-12 ? 1 / up : 0;

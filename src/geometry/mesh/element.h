@@ -7,7 +7,7 @@
 /* Node k of the mirrored element is node element_mirror (kind)[k] of the original one; applied twice it is
  * the identity. */
 const signed char *element_mirror (pg_element kind);
-/* Mean of the corners of the reference element. */
+/* Writes the mean xi of the corners of the reference element. */
 void element_centre (pg_element kind, double *xi);
 /* Corners of face f, as numbers within the element, at most 4; returns how many. */
 int  element_face_corners (pg_element kind, int f, int node[4]);

@@ -4,8 +4,8 @@
 #include "element.h"
 #include <math.h>
 
-/* x and J[axis][reference axis] = dx / dxi of `nodes` nodes from the shape functions there and their
- * derivatives. */
+/* Position and J[axis][reference axis] = dx / dxi from the values N of the shape functions and their
+ * derivatives dN. */
 static inline __attribute__ ((always_inline)) void combine_those (int nodes, int dim, int d, const double *x,
                                                                   const double *N, const double *dN,
                                                                   double place[3], double J[3][3])
@@ -21,7 +21,7 @@ static inline __attribute__ ((always_inline)) void combine_those (int nodes, int
         }
 }
 
-/* The usual ones with their loops known. */
+/* Calls combine_those with constant loop bounds for the usual dimensions. */
 static void combine (pg_element kind, int dim, const double *x, const double *N, const double *dN,
                      double place[3], double J[3][3])
 {
@@ -32,7 +32,7 @@ static void combine (pg_element kind, int dim, const double *x, const double *N,
     else combine_those (nodes, dim, d, x, N, dN, place, J);
 }
 
-/* Place and J = dx / dxi of an element at the reference coordinates xi. */
+/* Position and J = dx / dxi of an element at the reference coordinates xi. */
 static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3],
                              double J[3][3])
 {
@@ -41,7 +41,8 @@ static void place_and_slope (pg_element kind, int dim, const double *x, const do
     combine (kind, dim, x, N, dN, place, J);
 }
 
-/* Length, area or volume of the image of the unit cube of dimension d; n: normal, not of unit length. */
+/* Size factor of the map: length, area or volume of the image of the unit cube of dimension d; n: normal, not
+ * of unit length. */
 static double size_of (int d, int dim, double J[3][3], double n[3])
 {
     n[0] = 1, n[1] = n[2] = 0;
@@ -104,7 +105,7 @@ static int solve (int d, double J[3][3], const double r[3], double step[3])
     return 1;
 }
 
-/* For simplices the centroid, for other elements the origin. */
+/* The centroid for simplices, the origin for bars, quadrilaterals and hexahedra. */
 void element_centre (pg_element kind, double *xi)
 {
     int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners;

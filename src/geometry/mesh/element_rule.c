@@ -10,7 +10,7 @@
 #include "element.h"
 #include <string.h>
 
-/* Exact to degree 2 order - 1. */
+/* Gauss-Legendre rule of `order` points on [-1, 1], exact to degree 2 order - 1. */
 void pg_gauss_rule (int order, double *x, double *w)
 {
     static const double X[5][5] = { { 0 },
@@ -107,7 +107,8 @@ static int next (int n, signed char *a)
     return 1;
 }
 
-/* All permutations of each orbit; weights are shares of the reference simplex, whose size is 1/2 or 1/6. */
+/* Rule of a triangle or tetrahedron: all permutations of each orbit; weights are shares of the reference
+ * simplex, whose size is 1/2 or 1/6. */
 static int simplex_rule (int dim, int order, double *xi, double *weight)
 {
     const rule *r = dim == 2 ? &triangle[order - 1] : &tetrahedron[order - 1];
@@ -123,7 +124,7 @@ static int simplex_rule (int dim, int order, double *xi, double *weight)
     return n;
 }
 
-/* Product of Gauss rules, the first axis fastest. */
+/* Rule of bars, quadrilaterals and hexahedra: product of Gauss rules, the first axis fastest. */
 static int brick_rule (int dim, int order, double *xi, double *weight)
 {
     int n = 1;
@@ -138,7 +139,7 @@ static int brick_rule (int dim, int order, double *xi, double *weight)
     return n;
 }
 
-/* Product of the rule of a triangle with a Gauss rule along the axis. */
+/* Rule of a wedge: product of the rule of a triangle with a Gauss rule along the axis. */
 static int wedge_rule (int order, double *xi, double *weight)
 {
     double place[2 * PG_ELEMENT_POINTS], share[PG_ELEMENT_POINTS];
@@ -152,8 +153,8 @@ static int wedge_rule (int order, double *xi, double *weight)
     return m * order;
 }
 
-/* Gauss rules in x and y, shrunk with the height, times the rule of Gauss and Jacobi in z for the weight
- * (1 - z)^2, by which the cross section shrinks. */
+/* Rule of a pyramid: Gauss rules in x and y, scaled by 1 - z, times a Gauss-Jacobi rule in z for the weight
+ * (1 - z)^2, which is the area of the cross section. */
 static int pyramid_rule (int order, double *xi, double *weight)
 {
     static const double Z[5][5] = {

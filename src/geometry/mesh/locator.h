@@ -3,7 +3,7 @@
 #ifndef MESH_FINDER_H
 #define MESH_FINDER_H
 #include "perigal/mesh.h"
-/* The element (of any dimension up to that of the space) nearest to a place, at most `reach` away; d: its
- * distance. -1 and HUGE_VAL: there is none. */
+/* Returns the element (of any dimension up to that of the space) nearest to a position, at most `reach` away;
+ * *d: its distance, in the unit of the mesh. -1 and HUGE_VAL: there is none. */
 long locator_nearest (const pg_mesh_locator *f, const double *place, double reach, double *d);
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The k-d tree of tree.h: sorting by quickselect, O(n log n); searches that leave out the half of a range
- * that the parting point puts out of reach. */
+ * The k-d tree of tree.h: sorting by quickselect, O(n log n); searches that skip the half of a range that its
+ * dividing point shows to be out of reach. */
 #include "tree.h"
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@
  * of memory. */
 typedef struct { size_t *item; double *x; size_t dim; } sorter;
 
-/* Coordinate of the point at a place of the order along an axis. */
+/* Coordinate along an axis of the point at a position of the sorted order. */
 static double along (const sorter *s, size_t place, size_t axis) { return s->x[place * s->dim + axis]; }
 
 static void swap (const sorter *s, size_t a, size_t b)
@@ -75,10 +75,11 @@ void pg_tree_clear (pg_tree *tree)
 }
 
 /* ---- all points near a place --------------------------------------------------------------------------- */
-/* A search for all points near a place. */
+/* State of a search for all points near a position. */
 typedef struct { const double *at; double reach; pg_tree_visit visit; void *context; } vicinity;
 
-/* A part of a range is left out where the dividing item is farther than `reach` on its other side. */
+/* Visits the points of a range that may be within reach. A part of the range is skipped where the dividing
+ * point is farther than `reach` on its other side. */
 static void visit_near (const pg_tree *t, const vicinity *v, size_t first, size_t last, int axis)
 {
     if (last - first <= PG_TREE_LEAF) {
@@ -100,13 +101,13 @@ void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_
 }
 
 /* ---- the nearest point --------------------------------------------------------------------------------- */
-/* A search for the nearest point. */
+/* State of a search for the nearest point. */
 typedef struct {
     const double *at;
     pg_tree_refuse refuse;  void *context;
     /* Number of the nearest so far, -1: none. */
     long   found;
-    /* Square of its distance, m^2. */
+    /* Square of the distance of that point, m^2. */
     double best;
 } query;
 
@@ -125,7 +126,7 @@ static void consider (const pg_tree *t, query *q, size_t first, size_t last)
     }
 }
 
-/* The half that holds the place comes first; the other one only where the plane between them is no
+/* Searches the half that holds the position first; the other one only where the plane between them is no
  * farther than the nearest point so far. The margin keeps points that are equally near but for rounding. */
 static void visit_nearest (const pg_tree *t, query *q, size_t first, size_t last, int axis)
 {
@@ -144,8 +145,8 @@ static void visit_nearest (const pg_tree *t, query *q, size_t first, size_t last
     else visit_nearest (t, q, first, middle, next);
 }
 
-/* Refusals may cost much (is a crack between?), and where all points of the half that holds the place are
- * refused, every one of them would be asked before the other half is looked at: the search goes out in rings
+/* The test `refuse` may be expensive (is a crack between?), and where all points of the half that holds the
+ * position are refused, every one of them would be tested before the other half: the search goes out in rings
  * from the nearest point of all, each 3 times as wide. */
 long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context,
                       double *away)
