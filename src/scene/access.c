@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a path leads. */
+/* The result of looking up a path. */
 typedef struct {
     /* The node, written or default; NULL: absent. */
     const pg_node *node;
-    /* The last written node on the way: where a fault is reported. */
+    /* The last node on the path that the user wrote: where a fault is reported. */
     const pg_node *nearest;
-    /* 1: the node is written, no default. */
+    /* 1: the user wrote the node; 0: it is a default or absent. */
     int            given;
 } found;
 
@@ -35,7 +35,7 @@ static const pg_node *item (const pg_node *list, size_t i)
     return i < list->n ? &list->child[i] : NULL;
 }
 
-/* Walks along "a.b[3].c". Defaults never stand in for an element of a list or for a name that the user
+/* Looks up a path such as "a.b[3].c". A default never replaces an element of a list or a name that the user
  * chooses. The pattern grows with the path, "materials.{}.density" for "materials.glass.density", and finds
  * the default. */
 static found locate (const pg_scene *s, const char *path)
@@ -62,7 +62,7 @@ static found locate (const pg_scene *s, const char *path)
             may_default = entered == 1;
             path += n;
         }
-        /* Below a node that is not written nothing is written either. */
+        /* Below a node that the user did not write nothing is written either. */
         if (child && f.given) f.nearest = child;
         if (!child) f.given = 0;
         f.node = child;
@@ -84,7 +84,7 @@ static found locate (const pg_scene *s, const char *path)
         f = locate (s, text_); \
     } while (0)
 
-/* A default counts as not given. */
+/* Has the user given the key? A default does not count. */
 int pg_scene_given (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);
@@ -120,8 +120,8 @@ const char *pg_scene_name (const pg_scene *s, size_t i, const char *path, ...)
     return node && node->shape == PG_SCALAR ? node->text : NULL;
 }
 
-/* The value in SI units, `spacing` metres for one point spacing. A node without a numeric kind (dimension:
- * 2) is read as a plain number. */
+/* The value in SI units; a multiple of the point spacing is multiplied by `spacing` (m). A node without a
+ * numeric kind (dimension: 2) is read as a plain number. */
 static double number_of (const pg_node *node, double spacing)
 {
     double value = 0;
@@ -148,7 +148,7 @@ double pg_scene_length (const pg_scene *s, double spacing, const char *path, ...
     return number_of (f.node, spacing);
 }
 
-/* Only up to 2^53, where a double holds every whole number. */
+/* Returns 0 beyond 2^53, up to which a double holds every whole number. */
 long pg_scene_integer (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);
@@ -180,8 +180,8 @@ int pg_scene_vector (const pg_scene *s, int max, double *out, const char *path, 
     return n;
 }
 
-/* The value is shown only if the key itself is written; else the fault is placed at the last written key
- * above. */
+/* The value is shown only if the key itself is written; else the fault is reported at the nearest written key
+ * above it. */
 void pg_scene_fault (const pg_scene *s, const char *path, const char *format, ...)
 {
     va_list args;

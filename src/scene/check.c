@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Checks the tree of a scene against the key tables: unknown, missing, repeated and wrongly shaped keys,
- * groups. Single values are checked by value.c. Faults are collected and do not stop the walk. */
+ * groups. Single values are checked by value.c. Faults are collected and do not stop the checks. */
 #include "document.h"
 #include "scene/quantity/unit.h"
 #include "value.h"
 #include <string.h>
 
-/* Unknown keys of a map that are named; the others are counted. */
+/* Most unknown keys of a map that are reported by name; the others are counted. */
 enum { NAMED = 10 };
 
 static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT]);
@@ -24,7 +24,7 @@ static const char *known_elsewhere (const pg_schema *schema, const char *name)
     return NULL;
 }
 
-/* "a|b" becomes "a, b". */
+/* Rewrites a list "a|b" as "a, b". */
 static void list_with_commas (char *out, size_t n, const char *names)
 {
     size_t used = 0;
@@ -35,7 +35,7 @@ static void list_with_commas (char *out, size_t n, const char *names)
     out[used] = '\0';
 }
 
-/* The fault of an unknown key: suggests the nearest name, or the place where the key belongs. */
+/* Reports an unknown key: suggests the nearest name, or the path where the key belongs. */
 static void unknown_key (pg_scene *s, const pg_node *node, const char *pattern, const char *path)
 {
     char names[PG_LEVEL_NAMES], listed[500];
@@ -79,7 +79,7 @@ static int first_of_path (const pg_schema *schema, size_t k)
     return 1;
 }
 
-/* Appends to a path; returns its old length, so that the caller can cut it again. */
+/* Appends a name to a path; returns the old length, so that the caller can cut the path again. */
 static size_t write_path (char path[PG_PATH_TEXT], const char *joint, const char *name)
 {
     size_t n = strlen (path);
@@ -87,7 +87,7 @@ static size_t write_path (char path[PG_PATH_TEXT], const char *joint, const char
     return n;
 }
 
-/* Keys of this level without a default must be there, if they are wanted. */
+/* Reports keys of this level that have no default and are missing, if they are in use. */
 static void check_missing (pg_scene *s, const pg_node *node, const char *pattern, char path[PG_PATH_TEXT])
 {
     for (size_t k = 0; k < s->schema.n; k++) {
@@ -103,7 +103,7 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
     }
 }
 
-/* Members of a group at one level: how many are given, all names, the last one given. */
+/* The keys of a group at one level: how many are given, all names, the last one given. */
 typedef struct { size_t given; char names[400], last[64]; } membership;
 
 /* Rows of one path count once, even if it may have several shapes. */
@@ -137,7 +137,7 @@ static int first_of_group (const pg_schema *schema, size_t k, const char *patter
     return 1;
 }
 
-/* Of the keys of a group at most or exactly one must be given. */
+/* Checks that at most one, or exactly one, of the keys of a group is given. */
 static void check_groups (pg_scene *s, const pg_node *node, const char *pattern, char path[PG_PATH_TEXT])
 {
     for (size_t k = 0; k < s->schema.n; k++) {
@@ -159,7 +159,7 @@ static void check_groups (pg_scene *s, const pg_node *node, const char *pattern,
 }
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
-/* All children of a map; pattern and path are restored afterwards. */
+/* Checks all children of a map; pattern and path are restored afterwards. */
 static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     pg_status status = PG_OK;
@@ -188,7 +188,7 @@ done:
     return status;
 }
 
-/* All elements of a list. */
+/* Checks all elements of a list. */
 static pg_status check_list (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     pg_status status = PG_OK;
@@ -206,7 +206,7 @@ done:
     return status;
 }
 
-/* A key with nothing behind it is an empty list where only a list fits, likewise a map. */
+/* Gives a key without a value a shape: an empty list where only a list fits, likewise a map. */
 static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char *pattern)
 {
     if (!pg_node_null (node) || pg_schema_row (schema, pattern, PG_SCALAR)) return;
@@ -232,7 +232,7 @@ static int overfull (pg_scene *s, const pg_node *node, const pg_key *row, const 
     return 1;
 }
 
-/* A node of any shape, after its row has been found. */
+/* Checks a node of any shape: finds its row, then checks its children or its value. */
 static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     static const char *const shape[] = { "a single value", "a list", "a map" };
@@ -253,7 +253,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
 }
 
 /* ---- all ----------------------------------------------------------------------------------------------- */
-/* Defaults are read and checked as if the user had written them. */
+/* Reads and checks the defaults as if the user had written them. */
 static pg_status check_defaults (pg_scene *s)
 {
     pg_status status = PG_OK;
@@ -278,12 +278,12 @@ done:
     return status;
 }
 
-/* The dimension comes first, because the length of vectors depends on it. */
+/* Checks the whole tree. The dimension comes first, because the length of vectors depends on it. */
 pg_status pg_scene_check (pg_scene *s)
 {
     pg_status status = PG_OK;
     char pattern[PG_PATTERN] = "", path[PG_PATH_TEXT] = "";
-    /* The dimension is read by hand: its own check comes in the course of the walk. */
+    /* The dimension is read here without a check, which follows with all other keys. */
     const pg_node *d = pg_node_child (&s->root, "dimension", strlen ("dimension"));
     if (d && d->shape == PG_SCALAR && d->text && strlen (d->text) == 1 && strchr ("123", *d->text))
         s->dimension = *d->text - '0';

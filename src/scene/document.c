@@ -21,7 +21,7 @@ static void hash (pg_scene *s, size_t length, size_t nset, const char *const *se
     pg_sha256_end (&sum, s->hash);
 }
 
-/* Copies what was given, and allocates the list of faults. */
+/* Copies text, name and overrides, and allocates the list of faults. */
 static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const char *name, size_t nset,
                              const char *const *set)
 {
@@ -32,7 +32,7 @@ static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const
     if (!s->file) PG_FAIL (PG_E_MEMORY, "no memory for the name of the scene");
     PG_ALLOC (s->faults, 1);
     PG_ALLOC (s->set, nset);
-    /* Counted while they are made, so that a failure releases what there is. */
+    /* Counted one by one, so that a failure releases those that exist. */
     for (s->nset = 0; s->nset < nset; s->nset++) {
         size_t n = strlen (set[s->nset]) + sizeof "--set ";
         PG_ALLOC (s->set[s->nset], n);
@@ -71,7 +71,7 @@ static int geometry_is_sound (const pg_scene *s)
     return s->dimension > 0 && !s->faults->more;
 }
 
-/* Text, overrides, checks; then the verdict on all faults. */
+/* Reads the text, applies overrides, checks; then reports all faults. */
 pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
                          const char *const *set, const pg_vocabulary *words, int some)
 {
@@ -133,7 +133,7 @@ const pg_key *pg_scene_known_key (const pg_scene *s, size_t k)
 
 const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }
 
-/* Faults that were passed do not count, unless memory was short for one. */
+/* Faults before pg_scene_pass do not count, unless memory was short for one. */
 pg_status pg_scene_verdict (const pg_scene *s)
 {
     return s->faults->n > s->faults->passed || s->faults->lost ? pg_faults_verdict (s->faults) : PG_OK;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A text that grows. */
+/* The JSON text under construction. */
 typedef struct { char *text; size_t n, cap; } json_text;
 
 static pg_status put (json_text *t, const char *word, size_t length)
@@ -22,7 +22,7 @@ done:
     return status;
 }
 
-/* A word in quotes; control characters by their code, as JSON demands. */
+/* Appends a word in quotes; control characters by their code, as JSON demands. */
 static pg_status put_quoted (json_text *t, const char *word)
 {
     pg_status status = PG_OK;
@@ -42,7 +42,7 @@ done:
     return status;
 }
 
-/* Does JSON write the text without quotes? */
+/* Is the text true or false, which JSON writes without quotes? */
 static int is_truth (const char *s) { return strcmp (s, "true") == 0 || strcmp (s, "false") == 0; }
 
 /* Is the text a number as JSON writes them? -1.5e-3 is; 1., .5, +1, 0x10, 1e400, inf and 2 mm are not. */

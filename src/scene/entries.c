@@ -4,7 +4,7 @@
 #include "document.h"
 #include <string.h>
 
-/* Whole names only: "stat" is not in "static|newmark". */
+/* Is `name` in the list "a|b|c"? Whole names only: "stat" is not in "static|newmark". */
 int pg_listed (const char *names, const char *name)
 {
     size_t length = strlen (name);
@@ -16,8 +16,8 @@ int pg_listed (const char *names, const char *name)
     return 0;
 }
 
-/* Puts the names of `map` into a pattern that begins alike: "materials.{}.density" with the map
- * "materials.glass" becomes "materials.glass.density". 0: the pattern does not begin like the map. */
+/* Replaces {} in a pattern by the names of `map`: "materials.{}.density" with the map "materials.glass"
+ * becomes "materials.glass.density". 0: the pattern does not begin like the map. */
 static int concrete (char out[PG_PATTERN], const char *pattern, const char *map)
 {
     const char *at = map;
@@ -29,12 +29,13 @@ static int concrete (char out[PG_PATTERN], const char *pattern, const char *map)
         if (*pattern != '.' || (*at && *at != '.')) return 0;
         if (*at) at++, pattern++;
     }
-    /* What is left of the pattern lies below another name that the user chooses. */
+    /* Names {} in the rest of the pattern cannot be replaced. */
     if (strpbrk (pattern, "{[")) return 0;
     return snprintf (out, PG_PATTERN, "%s%s", map, pattern) < PG_PATTERN;
 }
 
-/* Keys of the schema in their order; only those of catalogue entries are looked at. */
+/* Finds the k-th key below `map` that the user gave though it belongs to a catalogue entry that is not
+ * chosen; in the order of the schema. */
 const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char path[PG_STRAY_PATH])
 {
     char own[PG_PATTERN], chosen[PG_PATTERN];
@@ -50,8 +51,8 @@ const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char p
     return NULL;
 }
 
-/* The entry that is chosen by the selector of a key, written or by default, where selector and key stand in
- * the same map, `node` of this pattern; NULL: this is not known here. */
+/* Returns the entry that is chosen by the selector of a key, as written or by default, if the selector is a
+ * key of the map `node` at this pattern; NULL: it is not. */
 static const char *chosen_entry (const pg_scene *s, const pg_node *node, const char *pattern,
                                  const char *selector, char first[PG_LEVEL_NAMES])
 {
@@ -64,7 +65,7 @@ static const char *chosen_entry (const pg_scene *s, const pg_node *node, const c
     return row ? pg_key_default (row, first) : NULL;
 }
 
-/* Keys that belong to no entry are always wanted. */
+/* Keys that belong to no catalogue entry are always in use. */
 int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, const char *pattern)
 {
     const char *selector, *entries = pg_schema_entries (&s->schema, key, &selector);

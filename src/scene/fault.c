@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Faults of a scene: collected, then reported together in the order of the file. Faults in overrides stand
- * behind those of the file. Control characters in texts of the user are shown as ?, so that a message is
- * always one line per fault. */
+ * Faults of a scene: collected, then reported together in the order of the file. Faults in overrides come
+ * after those of the file. Control characters in texts of the user are shown as ?, so that each fault is one
+ * line. */
 #include "node.h"
 #include <ctype.h>
 #include <limits.h>
 #include <string.h>
 
-/* Faults in a message; faults kept (more are only counted); lengths of a line and of a value in it. */
+/* SHOWN: most faults in a message. KEPT: most faults stored (more are only counted). LINE, VALUE: most bytes
+ * of a line and of a value in it. */
 enum { SHOWN = 50, KEPT = 1000, LINE = 1200, VALUE = 60 };
 
-/* At most `most` bytes of a text, control characters as ?, cut between characters of UTF-8. */
+/* Copies at most `most` bytes of a text, control characters as ?, cut between characters of UTF-8. */
 static void printable (char *out, size_t most, const char *text)
 {
     size_t n = 0, length = strlen (text);
@@ -23,8 +24,8 @@ static void printable (char *out, size_t most, const char *text)
     snprintf (out + n, 4, "%s", text[n] ? "..." : "");
 }
 
-/* The text of a fault: "file:line:column: key = value: reason", or with the origin of the value (--set)
- * in place of the file. */
+/* Writes the text of a fault: "file:line:column: key = value: reason", or with the origin of the value
+ * (--set) in place of the file. */
 static void write_fault (char text[2 * LINE], const char *file, const pg_node *at, const char *path,
                          int with_value, const char *reason)
 {
@@ -58,7 +59,7 @@ void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const c
     write_fault (text, file, at, path, with_value, reason);
     PG_GROW (f->fault, f->cap, f->n + 1);
     pg_fault *fault = &f->fault[f->n];
-    /* faults of overrides stand behind those of the file */
+    /* faults of overrides come after those of the file */
     *fault = (pg_fault) { .text = pg_strdup (text), .line = at && at->line ? at->line : 1,
                           .column = at && at->column ? at->column : 1 };
     if (at && at->origin) fault->line = INT_MAX;
@@ -78,7 +79,7 @@ void pg_faults_add (pg_faults *f, const char *file, const pg_node *at, const cha
     va_end (args);
 }
 
-/* Order of the file. */
+/* Order of faults: by line, then by column. */
 static int before (const pg_fault *a, const pg_fault *b)
 {
     return a->line != b->line ? a->line < b->line : a->column < b->column;
@@ -103,7 +104,7 @@ pg_status pg_faults_verdict (const pg_faults *f)
     if (f->lost) return pg_error (PG_E_MEMORY, PG_HERE, "no memory for the faults of the scene");
     if (f->n == 0) return PG_OK;
     sort (f->fault, f->n);
-    /* Faults are told while they fit into the message, SHOWN at most. */
+    /* Faults are shown as long as they fit into the message, SHOWN at most. */
     for (; k < f->n && k < SHOWN; k++) {
         size_t length = strlen (f->fault[k].text);
         if (used + length + 2 > sizeof text) break;

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The folder of the scene is what stands before its last slash. */
+/* The folder of the scene is the part of its name before the last slash. */
 pg_status pg_scene_beside (char **out, const pg_scene *s, const char *name)
 {
     pg_status status = PG_OK;
@@ -42,10 +42,10 @@ done:
     return status;
 }
 
-/* The list under construction. */
+/* The list of files under construction. */
 typedef struct { const pg_scene *scene; pg_named_file *file; size_t n, cap; } collection;
 
-/* Walks through the tree; path: of the node. */
+/* Adds the files that a node and its children name; path: of the node. */
 static pg_status collect (collection *c, const pg_node *node, const char *path)
 {
     pg_status status = PG_OK;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of the scene as a whole: title, dimension, and what one- and two-dimensional bodies lack of a solid.
- */
+ * Keys of the input file as a whole: title, dimension, and what 1D and 2D bodies need beyond their geometry:
+ * thickness, cross section, plane stress or strain.
+ * */
 #include "perigal/scene.h"
 
-/* Each row is one key of a scene: path, kind, unit, range, default, choices and the text of `perigal
+/* Each row is one key of the input file: path, kind, unit, range, default, choices and the text of `perigal
  * help`. */
 static const pg_key keys[] = {
     { .path = "title",

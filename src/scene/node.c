@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Entries of a map that are searched one by one; of all, at most. */
+/* FEW: maps of up to so many entries are searched one by one. MOST: most entries of a map. */
 enum { FEW = 16, MOST = 1 << 30 };
 
 /* FNV-1a, a hash of short texts. */
@@ -22,7 +22,7 @@ static int is_called (const pg_node *node, const char *name, size_t length)
     return node->name && strncmp (node->name, name, length) == 0 && node->name[length] == '\0';
 }
 
-/* The slot of a name: that of the first child called so, or an empty one. */
+/* Returns the slot of a name in the hash table: that of the first child with this name, or an empty one. */
 static size_t find_slot (const pg_node *parent, const char *name, size_t length)
 {
     size_t s = hash_of (name, length) & (parent->slots - 1);
@@ -31,7 +31,7 @@ static size_t find_slot (const pg_node *parent, const char *name, size_t length)
     return s;
 }
 
-/* Enters child k, unless an earlier one has its name. */
+/* Enters child k into the hash table, unless an earlier one has its name. */
 static void enter (pg_node *parent, size_t k)
 {
     const char *name = parent->child[k].name;
@@ -39,7 +39,7 @@ static void enter (pg_node *parent, size_t k)
     if (name && !parent->slot[s]) parent->slot[s] = (unsigned) k + 1;
 }
 
-/* Keeps the table of a large map at most half full. */
+/* Enters the last child into the hash table of a large map, which is kept at most half full. */
 static pg_status index_last (pg_node *parent)
 {
     pg_status status = PG_OK;
@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* Children of a node are one array, which may move when it grows. */
+/* Appends a child. Children of a node are one array, which may move when it grows. */
 pg_status pg_node_add (pg_node **child, pg_node *parent, const char *name)
 {
     pg_status status = PG_OK;
@@ -74,7 +74,7 @@ done:
     return status;
 }
 
-/* As if it were written without quotes. */
+/* Makes the node a single value, as if it were written without quotes. */
 pg_status pg_node_word (pg_node *node, const char *text, const char *origin)
 {
     node->shape = PG_SCALAR;
@@ -96,7 +96,7 @@ pg_node *pg_node_child (const pg_node *parent, const char *name, size_t length)
     return NULL;
 }
 
-/* A text in quotes is never nothing. */
+/* A text in quotes is never null, even if it is empty. */
 int pg_node_null (const pg_node *node)
 {
     return node->shape == PG_SCALAR && node->plain

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the tree that a YAML text becomes, each node with its place, and the list of faults found in it.
- */
+ * Private: the tree that a YAML text becomes, each node with its line and column, and the list of faults
+ * found in it.
+ * */
 #ifndef PG_SCENE_NODE_H
 #define PG_SCENE_NODE_H
 #include "perigal/scene.h"
@@ -13,31 +14,32 @@ typedef struct pg_node pg_node;
 /* A node of the tree. */
 struct pg_node {
     pg_node_shape shape;
-    /* A single value without quotes. */
+    /* 1: a single value without quotes. */
     int           plain;
-    /* Place of the key or list element, from 1; 0: not in the file. */
+    /* Position of the key or list element in the file, from 1; 0: not in the file. */
     int           line, column;
-    /* "--set ..." or "default"; NULL: the file. Borrowed. */
+    /* Where the node comes from: "--set ..." or "default"; NULL: from the file. Borrowed. */
     const char   *origin;
-    /* Its key in the map above; NULL in lists. */
+    /* Key of the node in its parent map; NULL in lists. */
     char         *name;
     /* Text of a single value. */
     char         *text;
-    /* The row it was checked against. */
+    /* The row of the key table that the node was checked against. */
     const pg_key *key;
     /* Numbers: the value in SI; NAN for an expression with variables. */
     double        value;
-    /* 1: the value counts point spacings. */
+    /* 1: the value is a multiple of the point spacing. */
     int           spacing;
     /* Elements of a list, entries of a map (n). */
     pg_node      *child;
     size_t        n, cap;
-    /* Finds entries of a large map by name: places in child + 1, 0: empty (slots, a power of 2). */
+    /* Hash table that finds entries of a large map by name: indices into child + 1, 0: empty (slots, a power
+     * of 2). */
     unsigned     *slot;
     size_t        slots;
 };
 
-/* A fault: its message, its place, and the first word of the key it is about. */
+/* A fault: its message, its line and column, and the first word of the key concerned. */
 typedef struct { char *text; int line, column; char top[24]; } pg_fault;
 
 /* All faults of a scene. */
@@ -45,26 +47,28 @@ typedef struct {
     pg_fault *fault;
     /* Number, capacity, and how many more were only counted. */
     size_t    n, cap, more;
-    /* 1: there was no memory for one. */
+    /* 1: a fault could not be stored for lack of memory. */
     int       lost;
-    /* The first so many do not stop later checks (pg_scene_pass). */
+    /* Number of faults that do not stop later checks (pg_scene_pass). */
     size_t    passed;
 } pg_faults;
 
-/* Reads one YAML document into `root`. A wrong text is a fault, not a failure: *good = 0. */
+/* Reads one YAML document into `root`. An error in the text becomes a fault, the status stays PG_OK, and
+ * *good = 0. */
 pg_status pg_node_read (pg_node *root, const char *text, size_t length, const char *origin, const char *file,
                         pg_faults *faults, int *good);
-/* Makes a node a single value without a place. */
+/* Makes a node a single value without line and column. */
 pg_status pg_node_word  (pg_node *node, const char *text, const char *origin);
 /* Appends a zeroed child; other children may move. */
 pg_status pg_node_add   (pg_node **child, pg_node *parent, const char *name);
 /* The first child of that name (length bytes) of a map; NULL: there is none. */
 pg_node  *pg_node_child (const pg_node *parent, const char *name, size_t length);
-/* Is nothing written, or ~ ? */
+/* Is the value empty, or ~ ? */
 int       pg_node_null  (const pg_node *node);
 void      pg_node_clear (pg_node *node);
 
-/* Adds "file:line:column: path = value: text". at NULL: the beginning of the file; path NULL: none. */
+/* Adds the fault "file:line:column: path = value: text". at NULL: the beginning of the file; path NULL:
+ * none. */
 void pg_faults_add (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value,
                     const char *format, ...) __attribute__ ((format (printf, 6, 7)));
 void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value,

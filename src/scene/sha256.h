@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* State, the block being filled, and number of bytes so far. */
+/* State of a hash, the block being filled, and the number of bytes so far. */
 typedef struct { uint32_t h[8]; unsigned char block[64]; uint64_t length; } pg_sha256;
 void pg_sha256_start (pg_sha256 *s);
 void pg_sha256_add   (pg_sha256 *s, const void *data, size_t n);

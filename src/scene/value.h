@@ -4,11 +4,11 @@
 #define PG_SCENE_VALUE_H
 #include "document.h"
 
-/* Length of a path in messages. */
+/* Most bytes of a path in messages. */
 enum { PG_PATH_TEXT = 512 };
 
-/* Origin of the nodes made from defaults. */
+/* Origin (pg_node.origin) of the nodes made from defaults. */
 extern const char pg_default_origin[];
-/* Fills node->key, value and spacing; what is wrong becomes a fault. */
+/* Checks a node against its row: fills node->key, value and spacing; errors become faults. */
 pg_status pg_value_check (pg_scene *s, pg_node *node, const pg_key *row, const char *path);
 #endif

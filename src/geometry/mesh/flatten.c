@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh one element thick between two planes of constant z, as CalculiX makes of plane elements, back to
- * the plane mesh. Each element must have a face on either plane, and the nodes of the upper face must lie
- * above those of the lower one. */
+ * Converts a mesh one element thick between two planes of constant z, as CalculiX makes of plane elements,
+ * back to the plane mesh. Each element must have a face on either plane, and the nodes of the upper face must
+ * lie above those of the lower one. */
 #include "builder.h"
 #include "element.h"
 #include <math.h>
@@ -10,16 +10,16 @@
 /* The mesh, and what is known of its nodes. */
 typedef struct {
     const pg_mesh *mesh;
-    /* The two planes, z. */
+    /* The z coordinates of the two planes. */
     double  low, high;
-    /* Of each node: 0 on the lower plane, 1 half-way, 2 on the upper plane (nnode). */
+    /* Level of each node: 0 on the lower plane, 1 half-way, 2 on the upper plane (nnode). */
     signed char *level;
-    /* Of each node on a plane the node opposite it, -1: none (nnode). */
+    /* For each node on a plane the node opposite to it, its twin, -1: none (nnode). */
     int    *twin;
     pg_mesh_builder *builder;
 } plate;
 
-/* Levels of all nodes, to 1e-3 of the thickness. */
+/* Finds the levels of all nodes, to 1e-3 of the thickness. */
 static pg_status find_levels (plate *p)
 {
     pg_status status = PG_OK;
@@ -42,7 +42,7 @@ done:
     return status;
 }
 
-/* Face of element e with all corners on a level, -1: none. */
+/* Returns the face of element e all of whose corners are on a level, -1: none. */
 static int face_on (const plate *p, size_t e, int level)
 {
     const pg_mesh *m = p->mesh;
@@ -69,8 +69,8 @@ static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
     *kind = pg_element_face ((pg_element) m->kind[e], above, upper);
     pg_element_face ((pg_element) m->kind[e], below, lower);
     int n = pg_element_types[*kind].nodes;
-    /* The lower node nearest in x and y; least: its distance, size: that of the farthest one, as a
-     * measure. */
+    /* The twin is the lower node nearest in x and y; least: its distance; size: that of the farthest one, a
+     * length for the tolerance. */
     for (int k = 0; k < n; k++) {
         int top = m->node[m->start[e] + (size_t) upper[k]], best = -1;
         double least = HUGE_VAL, size = 0;
@@ -80,7 +80,7 @@ static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
             size = fmax (size, d);
             if (d < least) least = d, best = low;
         }
-        /* It must lie below, and neighbouring elements must agree about it. */
+        /* The twin must lie right below, and neighbouring elements must agree about it. */
         if (least > 1e-3 * size || (p->twin[top] >= 0 && p->twin[top] != best)
             || (p->twin[best] >= 0 && p->twin[best] != top))
             PG_FAIL (PG_E_USAGE,
@@ -93,13 +93,13 @@ done:
     return status;
 }
 
-/* Number of block b, its place + 1 where the file gave none. */
+/* Number of block b, or b + 1 where the file gave none. */
 static long group_of (const pg_mesh *m, size_t b)
 {
     return m->blocks[b].id > 0 ? m->blocks[b].id : (long) b + 1;
 }
 
-/* Plane elements, blocks, and the nodes half-way between twins. */
+/* Adds the plane elements, the blocks, and nodes half-way between twins. */
 static pg_status add_elements (plate *p)
 {
     pg_status status = PG_OK;
@@ -123,8 +123,8 @@ done:
     return status;
 }
 
-/* The side of the plane element that side `side` of solid element e stands on; -1: it is one of the faces
- * on the planes. */
+/* Returns the side of the plane element to which the upright side `side` of solid element e belongs; -1:
+ * `side` is one of the faces on the planes. */
 static int standing (const plate *p, size_t e, int side)
 {
     const pg_mesh *m = p->mesh;
@@ -141,7 +141,7 @@ static int standing (const plate *p, size_t e, int side)
     return -1;
 }
 
-/* Node sets by the lower twins, side sets by sides that stand upright. */
+/* Adds node sets by their lower twins, side sets by their upright sides. */
 static pg_status add_sets (plate *p)
 {
     pg_status status = PG_OK;
@@ -150,7 +150,7 @@ static pg_status add_sets (plate *p)
         const pg_mesh_nodes *set = &m->nodes[s];
         PG_TRY (pg_mesh_builder_nodeset (p->builder, set->name, set->id));
         for (size_t k = 0; k < set->n; k++) {
-            /* Nodes half-way have no place in the plane mesh. */
+            /* Nodes half-way between the planes do not occur in the plane mesh. */
             int i = set->node[k];
             if (p->level[i] == 2) i = p->twin[i];
             if (i >= 0 && p->level[i] == 0) PG_TRY (pg_mesh_builder_nodeset_add (p->builder, m->node_id[i]));
@@ -170,8 +170,8 @@ done:
     return status;
 }
 
-/* The field becomes the means of both sides at the nodes of the plane mesh; at: the node below of each.
- * work: room for nodes x components. */
+/* Replaces a field by the means of twins at the nodes of the plane mesh; at: the lower twin of each. work:
+ * room for nodes x components. */
 static void take_means (const plate *p, const pg_mesh *flat, const int *at, pg_mesh_field *f, double *work)
 {
     size_t n = (size_t) f->components, keep = n == 3 ? 2 : n;
@@ -184,7 +184,7 @@ static void take_means (const plate *p, const pg_mesh *flat, const int *at, pg_m
     f->components = (int) keep;
 }
 
-/* All fields, after the nodes of the plane mesh have been found by their numbers. */
+/* Converts all fields; nodes of the plane mesh are found in the solid mesh by their numbers. */
 static pg_status flatten_fields (const plate *p, const pg_mesh *flat, size_t nfield, pg_mesh_field *fields)
 {
     pg_status status = PG_OK;

@@ -12,8 +12,8 @@ static size_t slot_of (const pg_id_table *t, long id)
     return (size_t) (h >> 32) & t->mask;
 }
 
-/* The place of a number is its distance from the lowest. Entries of `direct` hold the position in the
- * list + 1; 0: empty. *twice: the first number that was there before; n: none. */
+/* Fills a plain table: the index of a number is its distance from the lowest. Entries of `direct` hold the
+ * position in the list + 1; 0: empty. *twice: index of the first number that occurred before; n: none. */
 static pg_status build_dense (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
@@ -27,8 +27,8 @@ done:
     return status;
 }
 
-/* Fills a hash table with a power of two slots, at least twice as many as numbers; a slot that is taken by
- * another number sends on to the next one. Entries and *twice: as in build_dense. */
+/* Fills a hash table with a power of two slots, at least twice as many as numbers; if a slot is taken by
+ * another number the next one is tried. Entries and *twice: as in build_dense. */
 static pg_status build_hash (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;

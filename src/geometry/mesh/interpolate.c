@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields given at the nodes of a mesh, within its elements: sum N_i value_i, and the gradient. Gradients
- * jump between elements, as those of finite elements do. */
+ * Interpolates fields given at the nodes of a mesh within its elements: sum N_i value_i, and the gradient.
+ * Gradients jump between elements, as those of finite elements do. */
 #include "element.h"
 #include <math.h>
 #include <string.h>
 
-/* Components of one node stand together in memory. */
+/* Components of one node are adjacent in memory. */
 void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
                     double *out)
 {

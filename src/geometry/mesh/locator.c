@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Search for the element that holds a place: a binary tree of boxes over the elements, divided at the
+ * Search for the element that holds a position: a binary tree of boxes over the elements, divided at the
  * median of the centres along the longest axis, so that the depth is log2 n however graded the mesh is. Of
- * several elements that hold a place (on a face between them) the lowest is taken, so that the answer does
- * not depend on the shape of the tree. */
+ * several elements that hold a position (on a face between them) the one with the lowest number is taken, so
+ * that the answer does not depend on the shape of the tree. */
 #include "closest.h"
 #include "locator.h"
 #include "element.h"
@@ -11,9 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Elements in a leaf at most; depth of the stack of a search. */
+/* Most elements in a leaf; depth of the stack of a search. */
 enum { LEAF = 4, DEPTH = 64 };
-/* A place this far outside the reference element still counts as inside: rounding must leave no gaps
+/* A position this far outside the reference element (xi) still counts as inside: rounding must leave no gaps
  * between neighbours. */
 static const double inside = 1e-9;
 /* A box along the axes. */
@@ -27,7 +27,7 @@ struct pg_mesh_locator {
     /* The mesh; borrowed. */
     const pg_mesh *mesh;
     int        dim;
-    /* Nodes in the order of a walk; the root is the first. */
+    /* Nodes of the tree in depth-first order; the root is the first. */
     tree_node *tree;
     size_t     ntree;
     /* Elements in the order of the leaves (mesh->n). */
@@ -36,7 +36,7 @@ struct pg_mesh_locator {
     box       *box;
     /* Centres of the boxes, only while building (n x dim). */
     double    *centre;
-    /* Largest size of an element. */
+    /* Size of the largest element, in the unit of the mesh. */
     double     largest;
 };
 
@@ -98,14 +98,14 @@ static void unite (box *a, const box *b, int dim)
         a->low[k] = fmin (a->low[k], b->low[k]), a->high[k] = fmax (a->high[k], b->high[k]);
 }
 
-/* Does the box hold the place? */
+/* Does the box hold the position? */
 static int holds (const box *b, const double *place, int dim)
 {
     for (int a = 0; a < dim; a++) if (!(place[a] >= b->low[a] && place[a] <= b->high[a])) return 0;
     return 1;
 }
 
-/* Distance of the place from the box; 0 inside. */
+/* Distance of the position from the box; 0 inside. */
 static double distance (const box *b, const double *place, int dim)
 {
     double square = 0;
@@ -125,13 +125,13 @@ static int before (const pg_mesh_locator *f, int p, int q, int axis)
     return a < b || (a == b && p < q);
 }
 
-/* Puts the k smallest of the n items from `first` on first (Hoare's selection). */
+/* Moves the k smallest of the n items from `first` on to the front (Hoare's selection). */
 static void halve (pg_mesh_locator *f, int first, int n, int k, int axis)
 {
     int *v = f->item + first, low = 0, high = n - 1;
     while (low < high) {
-        /* Items before the pivot go to the left, those behind it to the right; only the part with place k
-         * is continued. */
+        /* Items before the pivot go to the left, those behind it to the right; only the part with index k is
+         * continued. */
         int pivot = v[low + (high - low) / 2], i = low, j = high;
         while (i <= j) {
             while (before (f, v[i], pivot, axis)) i++;
@@ -226,7 +226,8 @@ void pg_mesh_locator_free (pg_mesh_locator **locator)
     *locator = NULL;
 }
 
-/* Reference coordinates in triangles and tetrahedra with straight edges, in closed form; 0: flat. */
+/* Finds the reference coordinates of p in a triangle or tetrahedron with straight edges, in closed form; 0:
+ * it is flat. */
 static int invert_simplex (int dim, const double *x, const double *p, double *xi)
 {
     double e[3][3], r[3];
@@ -251,7 +252,7 @@ static int invert_simplex (int dim, const double *x, const double *p, double *xi
     return det != 0;
 }
 
-/* Reference coordinates in any element. */
+/* Finds the reference coordinates of a position in any element; 0: it has none. */
 static int invert (pg_element kind, int dim, const double *x, const double *place, double *xi)
 {
     return kind == PG_TRI3 || kind == PG_TET4 ? invert_simplex (dim, x, place, xi)
@@ -259,7 +260,7 @@ static int invert (pg_element kind, int dim, const double *x, const double *plac
 }
 
 /* ---- questions ----------------------------------------------------------------------------------------- */
-/* The lowest element that holds the place, -1: none. */
+/* Returns the element with the lowest number that holds the position, -1: none. */
 static long find_inside (const pg_mesh_locator *f, const double *place, double *xi)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
@@ -274,7 +275,7 @@ static long find_inside (const pg_mesh_locator *f, const double *place, double *
         }
         for (int k = t->first; k < t->first + t->n; k++) {
             double x[3 * PG_ELEMENT_NODES], at[3];
-            /* Only a lower element can be better. */
+            /* Only an element with a lower number can replace the best. */
             if (f->item[k] >= best || !holds (&f->box[k], place, dim)) continue;
             pg_element kind = nodes_of (f, (size_t) f->item[k], x);
             if (!invert (kind, dim, x, place, at) || pg_element_outside (kind, at) > inside) continue;
@@ -285,7 +286,7 @@ static long find_inside (const pg_mesh_locator *f, const double *place, double *
     return best == LONG_MAX ? -1 : best;
 }
 
-/* Elements whose map cannot be inverted at this position are passed over. */
+/* Elements whose map cannot be inverted at this position are ignored. */
 double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, double enough)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
@@ -308,12 +309,12 @@ double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, dou
     return depth;
 }
 
-/* The nearest element so far, at distance d; away: d in sizes of the element. far: elements farther away
- * than their own size count too. */
+/* The nearest element so far, at distance d; away: d in units of the element's size. far: 1: elements farther
+ * away than their own size count too. */
 typedef struct { long element; double d, away, xi[3]; int far; } nearest;
 
-/* Compares item k with the nearest so far. Distances that agree to nine digits are equal, and the lower
- * element wins. */
+/* Compares item k with the nearest so far. Distances that agree to nine digits are equal, and the element
+ * with the lower number wins. */
 static void consider (const pg_mesh_locator *f, const double *place, int k, nearest *best)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3], size;
@@ -328,7 +329,7 @@ static void consider (const pg_mesh_locator *f, const double *place, int k, near
     memcpy (best->xi, xi, (size_t) f->dim * sizeof *xi);
 }
 
-/* Walks down the tree, nearer child first; boxes farther away than the nearest element are passed over. */
+/* Searches the tree, nearer child first; boxes farther away than the nearest element are skipped. */
 static void find_nearest (const pg_mesh_locator *f, const double *place, nearest *best)
 {
     int todo[DEPTH], n = 0;
@@ -357,7 +358,7 @@ long locator_nearest (const pg_mesh_locator *f, const double *place, double reac
     return best.element;
 }
 
-/* First the elements whose boxes hold the position; the nearest is searched for only where none holds it. */
+/* Tests the elements whose boxes hold the position; the nearest is searched for only where none holds it. */
 long pg_mesh_locator_find (const pg_mesh_locator *f, const double *place, double *xi, double *away)
 {
     for (int a = 0; a < f->dim; a++) if (!isfinite (place[a])) return -1;

@@ -20,7 +20,7 @@ void pg_mesh_clear (pg_mesh *mesh)
     memset (mesh, 0, sizeof *mesh);
 }
 
-/* Insertion sort of at most four nodes. */
+/* The key of a face: its corners, sorted by insertion, at most four. */
 void mesh_face_key (const pg_mesh *mesh, size_t e, int f, int key[4])
 {
     int corner[4], n = element_face_corners (mesh->kind[e], f, corner);
@@ -33,7 +33,7 @@ void mesh_face_key (const pg_mesh *mesh, size_t e, int f, int key[4])
 }
 
 /* ---- surface ------------------------------------------------------------------------------------------- */
-/* Faces of an element at most; up to FEW faces a bucket is searched pair by pair. */
+/* SIDES: most faces of an element. FEW: buckets of up to so many faces are searched pair by pair. */
 enum { SIDES = 6, FEW = 48 };
 /* A face in a bucket: its other corners, and element * SIDES + side. */
 typedef struct { int key[3]; unsigned face; } entry;
@@ -41,7 +41,7 @@ typedef struct { int key[3]; unsigned face; } entry;
 /* Do two entries of a bucket have the same corners? */
 static int same (const entry *a, const entry *b) { return !memcmp (a->key, b->key, sizeof a->key); }
 
-/* For qsort. */
+/* Order of entries: by corners, then by face. */
 static int by_key (const void *p, const void *q)
 {
     const entry *a = p, *b = q;
@@ -87,7 +87,7 @@ done:
     return status;
 }
 
-/* The result is ordered by element and side, since it is read off the flags in that order. */
+/* The result is ordered by element and side, as the flags `open` are. */
 pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **side)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The surface of a mesh as a mesh of faces in a search tree: distance to it, its box, its size. Distances
- * have no sign: inside or outside is a question to the elements (locator.c). */
+ * have no sign: whether a position is inside is decided by the elements (locator.c). */
 #include "locator.h"
 #include <math.h>
 #include <string.h>
@@ -60,7 +60,7 @@ void pg_skin_free (pg_mesh_skin **skin)
     *skin = NULL;
 }
 
-/* A place with a coordinate that is no number is at no distance. */
+/* A position with a coordinate that is not finite has the distance HUGE_VAL. */
 double pg_skin_distance (const pg_mesh_skin *skin, const double *place, double reach, long *face)
 {
     double d = HUGE_VAL;
@@ -103,7 +103,8 @@ static void widen (const double *x, pg_element kind, int dim, double *low, doubl
         }
 }
 
-/* Plane faces end at their nodes, to the last bit; curved ones may pass beyond these. */
+/* Bounding box of the surface. Plane faces end at their nodes, to the last bit; curved ones may extend beyond
+ * them. */
 void pg_skin_box (const pg_mesh_skin *skin, double *low, double *high)
 {
     const pg_mesh *f = &skin->faces;
@@ -124,7 +125,7 @@ void pg_skin_box (const pg_mesh_skin *skin, double *low, double *high)
     }
 }
 
-/* Quadrature of the highest order over all faces. */
+/* Area (2D: length) of the surface by quadrature of the highest order over all faces. */
 double pg_skin_size (const pg_mesh_skin *skin)
 {
     const pg_mesh *f = &skin->faces;
