@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are created where
- * they are missing. Index n of a list with n elements appends one. Overrides happen before the checks and
- * enter the hash by which results name their scene. */
+ * Overrides "a.b[0].c=value": put a value, read as YAML, into the tree; missing maps and lists on the path
+ * are created. Index n of a list with n elements appends one. Overrides are applied before the checks and
+ * enter the hash by which results name their scene (input file). */
 #include "document.h"
 #include <string.h>
 
-/* Depth of a path; length of a word. */
+/* DEEPEST: most parts of a path. WORD: room for a word, in bytes. */
 enum { DEEPEST = 30, WORD = 128 };
 
-/* An empty node becomes the shape that the path needs. 0: it has another one already. */
+/* Gives an empty node the shape that the path needs. 0: it has another one already. */
 static int become (pg_node *node, pg_node_shape shape)
 {
     if (pg_node_null (node)) {
@@ -50,7 +50,7 @@ static int next_part (const char **path, const char *end, char word[WORD], long 
     return 1;
 }
 
-/* Checked first, so that a wrong path leaves no trace in the tree. */
+/* Is the path well formed? Checked first, so that a wrong path leaves no trace in the tree. */
 static int well_formed (const char *path, const char *end)
 {
     char word[WORD];
@@ -63,7 +63,7 @@ static int well_formed (const char *path, const char *end)
     return 1;
 }
 
-/* The node at a well-formed path, created if need be; *why says what is wrong. */
+/* Finds the node at a well-formed path, created if need be; *why says what is wrong. */
 static pg_status reach (pg_scene *s, pg_node **node, const char *path, const char *end, const char *origin,
                         const char **why)
 {
@@ -90,8 +90,8 @@ done:
     return status;
 }
 
-/* The new value keeps the name of the node it replaces; its origin is the override, so that faults name
- * that. */
+/* The new value keeps the name of the node it replaces; its origin is the override, so that faults are
+ * reported there. */
 pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
 {
     pg_status status = PG_OK;
@@ -117,7 +117,7 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
     node->name = NULL;
     value.origin = origin;
     value.line = value.column = 0;
-    /* Nothing stands behind the sign: an empty value. */
+    /* Nothing follows the sign =: an empty value. */
     if (value.shape == PG_SCALAR && !value.text) value.plain = 1;
     pg_node_clear (node);
     *node = value;

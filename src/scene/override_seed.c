@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * "random_field.seed=N": other seeds for all random fields in the expressions of a scene, as one value of the
- * command line. Fields of one seed stay one field: the first different seed of the scene, in the order of
- * the file, becomes N, the next one N + 1000000, and so on. */
+ * Override "random_field.seed=N": replaces the seeds of all random fields in the expressions of a scene by
+ * one value of the command line. Fields with equal seeds keep equal seeds: the first different seed of the
+ * scene, in the order of the file, becomes N, the next one N + 1000000, and so on. */
 #include "document.h"
 #include <ctype.h>
 #include <stdio.h>
@@ -11,10 +11,11 @@
 enum { SEEDS = 64, APART = 1000000, WORD = 64 };
 static const char function[] = "random_field";
 
-/* The different seeds found so far, as they are written. */
+/* The different seeds found so far, as texts; first: the new value of the first seed; found: 1: there is a
+ * random field. */
 typedef struct { size_t n; char text[SEEDS][WORD]; long first; int found; } seeds;
 
-/* The end of an argument: the comma or bracket that closes it; NULL: it has none. */
+/* Returns the end of an argument, the comma or bracket that closes it; NULL: it has none. */
 static const char *end_of (const char *s)
 {
     int depth = 0;
@@ -25,7 +26,7 @@ static const char *end_of (const char *s)
     return NULL;
 }
 
-/* The new seed for one that is written as [from, to). */
+/* Returns the new seed for the one that is written from `from` to before `to`. */
 static long seed_for (seeds *all, const char *from, const char *to)
 {
     char word[WORD] = "";
@@ -39,7 +40,7 @@ static long seed_for (seeds *all, const char *from, const char *to)
     return all->first + APART * (long) k;
 }
 
-/* Where the seed of the next field of a text is written; 0: there is none. */
+/* Finds the text *from .. *to of the seed of the next random field in a text; 0: there is none. */
 static int next_seed (const char *text, const char **from, const char **to)
 {
     for (const char *s = text; (s = strstr (s, function)); s += strlen (function)) {
@@ -53,7 +54,7 @@ static int next_seed (const char *text, const char **from, const char **to)
     return 0;
 }
 
-/* All fields of one text. */
+/* Replaces the seeds of all random fields in one text. */
 static pg_status rewrite (pg_node *node, seeds *all)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Finds the row of a key table for a place in the scene. A pattern is a path in which {} stands for a name
- * chosen by the user and [] for an element of a list: "materials.{}.density", "body[].add.disk.radius". All
- * searches are linear in the number of rows, some hundreds. */
+ * Finds the row of a key table for a path in the scene (input file). A pattern is a path in which {} stands
+ * for a name chosen by the user and [] for an element of a list: "materials.{}.density",
+ * "body[].add.disk.radius". All searches are linear in the number of rows, some hundreds. */
 #include "schema.h"
 #include "scene/quantity/unit.h"
 #include <string.h>
@@ -19,7 +19,7 @@ done:
     return status;
 }
 
-/* By the address of the row: rows are unique. */
+/* Finds the table of a row by the address of the row: each is in one table. */
 const char *pg_schema_entries (const pg_schema *s, const pg_key *row, const char **selector)
 {
     for (size_t t = 0; s->from->owner && t < s->from->n; t++) {
@@ -39,8 +39,8 @@ void pg_schema_clear (pg_schema *s)
     *s = (pg_schema) { 0 };
 }
 
-/* What follows the pattern in the path, if it leads there; else NULL. Most paths differ in their first
- * letters: no call pays for that. */
+/* Returns what follows the pattern in the path if the path begins with it; else NULL. Inline, as most paths
+ * differ in their first letters. */
 static inline const char *rest_of (const char *path, const char *pattern)
 {
     const char *begin = path;
@@ -48,7 +48,7 @@ static inline const char *rest_of (const char *path, const char *pattern)
     return *path == '\0' || *path == '.' || *path == '[' || path == begin ? path : NULL;
 }
 
-/* Are two paths one? */
+/* Are two paths equal? */
 static inline int same_path (const char *a, const char *b)
 {
     while (*a && *a == *b) a++, b++;
@@ -63,7 +63,7 @@ static int leads_somewhere (const pg_schema *s, const char *pattern)
     return 0;
 }
 
-/* Appends a part to the pattern, if that leads somewhere. */
+/* Appends a part to the pattern, if some row begins with the result. */
 static int extend (const pg_schema *s, char *pattern, const char *joint, const char *name, size_t length)
 {
     size_t n = strlen (pattern);
@@ -74,7 +74,7 @@ static int extend (const pg_schema *s, char *pattern, const char *joint, const c
     return 0;
 }
 
-/* A key of its own comes before names that the user chooses. */
+/* Appends a name as it is if there is such a key, else as {}, a name that the user chooses. */
 int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length)
 {
     const char *joint = *pattern ? "." : "";
@@ -100,7 +100,8 @@ static int takes (pg_kind kind, pg_node_shape shape)
     }
 }
 
-/* Of rows with one path, such as a list or a single value, the one that takes this shape. */
+/* Returns, of several rows with one path, such as for a list or a single value, the one that takes this
+ * shape. */
 const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_node_shape shape)
 {
     for (size_t k = 0; k < s->n; k++)
@@ -173,10 +174,10 @@ const char *pg_key_default (const pg_key *key, char name[PG_LEVEL_NAMES])
     return name;
 }
 
-/* From the table or from a catalogue. */
+/* The choices come from the key table or from a catalogue. */
 const char *pg_key_choices (const pg_key *key) { return key->choices_of ? key->choices_of () : key->choices; }
 
-/* What a value of each kind is called in messages; numbers and names say more. */
+/* What a value of each kind is called in messages; messages about numbers and names are more detailed. */
 static const char *const kind_text[] = {
     [PG_MAP] = "a map (key: value)", [PG_LIST] = "a list", [PG_INTEGER] = "a whole number",
     [PG_BOOL] = "on or off", [PG_TEXT] = "a text", [PG_FILE] = "the name of a file",

@@ -23,7 +23,7 @@ static const uint32_t H0[8] = {
 /* Rotation to the right. */
 static uint32_t turn (uint32_t x, int n) { return x >> n | x << (32 - n); }
 
-/* One block of 64 bytes into the state (section 6.2.2 of the standard). */
+/* Mixes one block of 64 bytes into the state (section 6.2.2 of the standard). */
 static void mix (uint32_t h[8], const unsigned char *block)
 {
     uint32_t w[64], v[8];
@@ -65,7 +65,7 @@ void pg_sha256_add (pg_sha256 *s, const void *data, size_t n)
     }
 }
 
-/* Padding: a bit, zeros, the length in bits. */
+/* Finishes with the padding: a 1 bit, zeros, the length in bits. */
 void pg_sha256_end (pg_sha256 *s, char hex[65])
 {
     uint64_t bits = s->length * 8;

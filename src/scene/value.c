@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Checks one value against its row: number, unit, range, choice, length of a vector.
  *
- * What passes is stored in the node: numbers in SI (node->value), or as a multiple of the point spacing
+ * A valid value is stored in the node: numbers in SI (node->value), or as a multiple of the point spacing
  * (node->spacing); truth values as 0 and 1; texts, names and expressions as they are. Names that refer to
- * other parts of the scene, such as sets, are checked as far as the text alone allows; the rest is found
- * when these parts exist. */
+ * other parts of the scene (input file), such as sets, are checked as far as the text alone allows; the rest
+ * is found when these parts exist. */
 #include "value.h"
 #include "scene/quantity/expression.h"
 #include "scene/quantity/unit.h"
@@ -17,7 +17,7 @@ const char pg_default_origin[] = "default";
 
 #define FAULT(node, ...) pg_faults_add (s->faults, s->file, (node), path, 1, __VA_ARGS__)
 
-/* Turns the last message into a fault; lack of memory or of the database of units remains a failure. */
+/* Turns the last error message into a fault; lack of memory or of the database of units remains a failure. */
 static pg_status as_fault (pg_scene *s, const pg_node *node, const char *path, pg_status status)
 {
     char why[600];
@@ -27,13 +27,13 @@ static pg_status as_fault (pg_scene *s, const pg_node *node, const char *path, p
     return PG_OK;
 }
 
-/* An angle without unit gets a hint, since degrees are the usual mistake. */
+/* Checks the range of a number. An angle without unit gets a hint, since degrees are the usual mistake. */
 static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
 {
     int wrong, holds = pg_range_holds (row->range, node->value, &wrong);
     const char *unit = row->unit && !node->spacing && strcmp (row->unit, "1") != 0 ? row->unit : "";
     if (wrong) FAULT (node, "the range '%s' of its key table is wrong", row->range);
-    /* A number without a unit, where an angle is wanted. */
+    /* 1: a number without a unit, where an angle is wanted. */
     int bare = strcmp (unit, "rad") == 0 && node->text
                && node->text[strspn (node->text, "+-.0123456789eE ")] == '\0';
     if (!holds)
@@ -41,7 +41,7 @@ static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, co
                bare ? "; a number without unit is in rad, degrees are written 40 deg" : "");
 }
 
-/* Number with unit. */
+/* Checks a number with unit. */
 static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     pg_status status = pg_quantity_read (&node->value, &node->spacing, node->text, row->unit);
@@ -50,7 +50,7 @@ static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, co
     return PG_OK;
 }
 
-/* A whole number up to 2^53. */
+/* Checks a whole number, up to 2^53. */
 static void check_integer (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     const char *end = pg_number_read (node->text, &node->value);
@@ -60,7 +60,7 @@ static void check_integer (pg_scene *s, pg_node *node, const pg_key *row, const 
     else check_range (s, node, row, path);
 }
 
-/* on, yes, true; off, no, false. */
+/* Checks a truth value: on, yes, true; off, no, false. */
 static void check_bool (pg_scene *s, pg_node *node, const char *path)
 {
     static const char *const word[] = { "off", "on", "no", "yes", "false", "true" };
@@ -93,8 +93,8 @@ static void add_layers (const pg_scene *s, char *names, size_t at, size_t size)
     }
 }
 
-/* Parts of shapes (disk.rim) are sets as well, named by what a shape is or by its name. Whether the part
- * exists is found when the sets are built. */
+/* Is `text` with the first word `base` a part of a shape (disk.rim)? Such parts are sets as well; `base` is
+ * the kind of a shape or its name. Whether the part exists is found when the sets are built. */
 static int is_part_of_shape (const pg_scene *s, const char *base, const char *text)
 {
     const pg_node *list = pg_node_child (&s->root, "body", 4);
@@ -104,7 +104,7 @@ static int is_part_of_shape (const pg_scene *s, const char *base, const char *te
                       *shape = pg_node_child (&list->child[k], "add", 3);
         if (!shape) shape = pg_node_child (&list->child[k], "subtract", 8);
         if (name && name->text && !strcmp (name->text, base)) return 1;
-        /* The key below add: or subtract: is what the shape is. */
+        /* The key below add: or subtract: is the kind of the shape. */
         for (size_t c = 0; shape && c < shape->n; c++)
             if (shape->child[c].name && !strcmp (shape->child[c].name, base)) return 1;
     }
@@ -119,8 +119,8 @@ static size_t add_children (const pg_node *map, char *names, size_t at, size_t s
     return at;
 }
 
-/* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either
- * (name.top). */
+/* Checks a name against choices "sets.{}|left|...": it must be a name of that map of the scene, one of the
+ * other choices, or a part of either (name.top). */
 static void check_reference (pg_scene *s, const pg_node *node, const char *choices, const char *path)
 {
     char names[4096], base[64], map[64];
@@ -142,7 +142,7 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
            near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
 }
 
-/* A name among fixed choices, or a reference. */
+/* Checks a name against fixed choices, or as a reference. */
 static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
 {
     const char *choices = pg_key_choices (row);
@@ -153,7 +153,7 @@ static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, c
         check_reference (s, node, choices, path);
         return;
     }
-    /* "a|b" becomes "a, b". */
+    /* rewrites the list "a|b" as "a, b" */
     for (const char *c = choices; *c && n + 3 < sizeof listed; c++) {
         listed[n++] = *c == '|' ? ',' : *c;
         if (*c == '|') listed[n++] = ' ';
@@ -164,7 +164,7 @@ static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, c
     else FAULT (node, "must be one of %s", listed);
 }
 
-/* A number and one word: what is wrong with it is better said as of a number than as of an expression. */
+/* Is the text a number and one word? Its error is then reported as that of a number, not of an expression. */
 static int is_quantity (const char *text)
 {
     char *end;
@@ -181,12 +181,12 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     pg_expression *e = NULL;
     pg_status status = pg_expression_compile (&e, node->text, row->unit);
     node->value = NAN;
-    /* the better words replace those of the expression */
+    /* the message for a number replaces that for an expression */
     if (status == PG_E_SCENE && is_quantity (node->text))
         (void) pg_unit_parse (&node->value, node->text, row->unit);
     node->value = NAN;
     if (status != PG_OK) return as_fault (s, node, path, status);
-    /* A number, or a formula without variables. */
+    /* The value is known: a number, or a formula without variables. */
     if (pg_expression_constant (e, &node->value)) {
         if (!isfinite (node->value)) FAULT (node, "has no finite value");
         else if (pg_quantity_sane (node->value) != PG_OK) FAULT (node, "%s", pg_last_error ());
@@ -196,7 +196,7 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     return PG_OK;
 }
 
-/* A single value of any kind. */
+/* Checks a single value of any kind. */
 static pg_status check_scalar (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     node->key = row;
@@ -220,7 +220,7 @@ static pg_status check_scalar (pg_scene *s, pg_node *node, const pg_key *row, co
     return PG_OK;
 }
 
-/* Is it a list in quotes, such as "0, 5 mm"? A fault then. */
+/* Is the value a list in quotes, such as "0, 5 mm"? Then it is reported. */
 static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
 {
     if (node->shape != PG_SCALAR || !strchr (node->text, ',')) return 0;
@@ -228,7 +228,7 @@ static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
     return 1;
 }
 
-/* A vector has as many numbers as the scene has dimensions; a default may be longer. */
+/* Checks that a vector has as many numbers as the scene has dimensions; a default may be longer. */
 static void check_length (pg_scene *s, const pg_node *node, const char *path)
 {
     size_t n = node->shape == PG_SCALAR ? 1 : node->n, dim = (size_t) s->dimension;
@@ -238,7 +238,7 @@ static void check_length (pg_scene *s, const pg_node *node, const char *path)
     else if (n < 1 || n > 3) FAULT (node, "needs 1 to 3 numbers, has %zu", n);
 }
 
-/* A list is checked element by element against the same row. */
+/* Checks a value; a list is checked element by element against the same row. */
 pg_status pg_value_check (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     pg_status status = PG_OK;

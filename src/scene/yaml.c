@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * YAML text to a tree of nodes with line and column, through the document interface of libyaml. Depth of
- * nesting and number of nodes are limited, since aliases and brackets could make a small file fill the
- * memory; errors of libyaml are translated into what a user can mend. */
+ * Converts a YAML text to a tree of nodes with line and column, through the document interface of libyaml.
+ * Depth of nesting and number of nodes are limited, since aliases and brackets could make a small file fill
+ * the memory; errors of libyaml are translated into words that help the user. */
 #include "node.h"
 #include <string.h>
 #include <yaml.h>
 
-/* Nesting, at most. */
+/* Most levels of nesting. */
 enum { DEEPEST = 30 };
 
-/* What the functions share. */
+/* State of the conversion. */
 typedef struct {
     yaml_document_t *document;
     const char      *origin, *file;
@@ -19,7 +19,7 @@ typedef struct {
     int              good;
 } reader;
 
-/* Line and column of a node; none for an override. */
+/* Sets origin, line and column of a node; 0 for an override. */
 static void place (const reader *r, pg_node *node, const yaml_node_t *y)
 {
     node->origin = r->origin;
@@ -36,7 +36,7 @@ static void complain (reader *r, const pg_node *node, const char *why)
 
 static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int deep);
 
-/* A single value. */
+/* Converts a single value. */
 static pg_status convert_scalar (reader *r, pg_node *node, const yaml_node_t *y)
 {
     const char *text = (const char *) y->data.scalar.value;
@@ -48,7 +48,7 @@ static pg_status convert_scalar (reader *r, pg_node *node, const yaml_node_t *y)
     return node->text ? PG_OK : pg_error (PG_E_MEMORY, PG_HERE, "no memory for a value of the scene");
 }
 
-/* A list, a map, any node. deep: nesting so far. */
+/* Converts a list. deep: levels of nesting so far. */
 static pg_status convert_list (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     pg_status status = PG_OK;
@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-/* Keys must be single words; others are reported and skipped. */
+/* Converts a map. Keys must be single words; others are reported and skipped. */
 static pg_status convert_map (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     pg_status status = PG_OK;
@@ -89,7 +89,8 @@ done:
     return status;
 }
 
-/* Aliases may repeat parts: the number of nodes is limited, so that a small file cannot fill the memory. */
+/* Converts a node of any type. Aliases may repeat parts: the number of nodes is limited, so that a small file
+ * cannot fill the memory. */
 static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     if (deep > DEEPEST || r->left == 0) {
@@ -103,7 +104,7 @@ static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int de
     return convert_scalar (r, node, y);
 }
 
-/* Line and column of a byte, where libyaml gives only its offset. */
+/* Finds line and column of a byte, where libyaml gives only its offset. */
 static void locate (pg_node *at, const char *text, size_t length, size_t offset)
 {
     at->line = at->column = 1;
@@ -124,7 +125,7 @@ static int has_tab (const char *text, size_t length, int line, int column)
     return 0;
 }
 
-/* Says in words of the user what libyaml found. */
+/* Reports a syntax error that libyaml found, in words that a user understands. */
 static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *text, size_t length)
 {
     pg_node at = { .origin = r->origin,
@@ -155,7 +156,7 @@ static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *te
                            : "");
 }
 
-/* Reads one document; root NULL: there must be no further one. */
+/* Reads one document; root NULL: reports a further document as a fault. */
 static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, const char *text, size_t length)
 {
     pg_status status = PG_OK;
@@ -181,8 +182,8 @@ static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, cons
     return status;
 }
 
-/* For every bracket libyaml looks at all that are open, so that deep nesting costs quadratic time: the
- * depth is checked by its events before the tree is built. Other faults are found when it is. */
+/* Checks the depth of nesting by the events of libyaml before the tree is built: building it takes time
+ * quadratic in the depth. Other faults are found when the tree is built. */
 static pg_status check_depth (reader *r, const char *text, size_t length)
 {
     yaml_parser_t parser;

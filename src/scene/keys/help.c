@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. A key may be
- * given by its full path, without the names that the user chooses (materials.{}.density or
+ * Writes what a key means, from the tables: for one key on the terminal; for all keys see manual.c. A key may
+ * be given by its full path, without the names that the user chooses (materials.{}.density or
  * materials.density), by its last word, or by the path of a map, for which the keys below are listed. */
 #include "keys.h"
 #include <string.h>
 
-/* In the order of pg_kind. */
+/* The names are in the order of pg_kind. */
 const char *pg_key_kind (const pg_key *key)
 {
     static const char *const kind[] = {
@@ -15,8 +15,8 @@ const char *pg_key_kind (const pg_key *key)
     return (unsigned) key->kind < sizeof kind / sizeof *kind ? kind[key->kind] : "?";
 }
 
-/* "materials.{}.youngs_modulus" and "materials.youngs_modulus" become the same text, which a user would
- * type. */
+/* Removes {} and [] from a path: "materials.{}.youngs_modulus" and "materials.youngs_modulus" both become
+ * "materials.youngs_modulus", as a user would type it. */
 static void plain_path (char out[PG_PATTERN], const char *path)
 {
     size_t n = 0;
@@ -30,7 +30,7 @@ static void plain_path (char out[PG_PATTERN], const char *path)
     out[n] = '\0';
 }
 
-/* Separators become commas. */
+/* The separators | of the names become commas. */
 void pg_help_meaning (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *entries = pg_schema_entries (s, key, NULL);
@@ -53,7 +53,7 @@ static int match (const pg_key *row, const char *key)
     return n > m && path[m] == '.' && strncmp (path, key, m) == 0;
 }
 
-/* Names separated by commas. */
+/* Prints names "a|b" separated by commas. */
 static void print_names (FILE *to, const char *before, const char *names)
 {
     fprintf (to, "%s", before);
@@ -64,7 +64,7 @@ static void print_names (FILE *to, const char *before, const char *names)
     fprintf (to, "\n");
 }
 
-/* Prints the keys among which the group of a key lets one be given: those with its parent. */
+/* Prints the keys of the same group and map as `key`, of which one may or must be given. */
 static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *last = strrchr (key->path, '.'), *rule = strrchr (key->group, ':'), *joint = "";
@@ -84,7 +84,7 @@ static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
     fprintf (to, "\n");
 }
 
-/* All that is known of one key. */
+/* Prints all properties of one key. */
 static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *choices = pg_key_choices (key);
@@ -105,7 +105,7 @@ static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
     if (key->group) print_partners (to, s, key);
 }
 
-/* The keys below, one per line. */
+/* Prints the keys below a map, one per line. */
 static void print_below (FILE *to, const pg_schema *s, const char *key)
 {
     const char *title = "  below it:\n";
@@ -118,7 +118,7 @@ static void print_below (FILE *to, const pg_schema *s, const char *key)
     }
 }
 
-/* How many rows match in this way. */
+/* Counts the rows that match the key in this way (see match). */
 static size_t count (const pg_schema *s, const char *key, int how)
 {
     size_t n = 0;
@@ -126,7 +126,7 @@ static size_t count (const pg_schema *s, const char *key, int how)
     return n;
 }
 
-/* The nearest full path, else the nearest last word. */
+/* Returns the key most similar to an unknown one: by its full path, else by its last word. */
 static const char *nearest_key (const pg_schema *s, const char *key)
 {
     char path[PG_PATTERN];
@@ -149,7 +149,7 @@ static const char *nearest_key (const pg_schema *s, const char *key)
     return near;
 }
 
-/* All rows that match the key in this way (see match), each behind the text `before`. */
+/* Prints all rows that match the key in this way (see match), each after the text `before`. */
 static void print_matches (FILE *to, const pg_schema *s, const char *key, int how, const char *before)
 {
     for (size_t k = 0; k < s->n; k++) {
@@ -159,8 +159,8 @@ static void print_matches (FILE *to, const pg_schema *s, const char *key, int ho
     }
 }
 
-/* A full path comes first, else all keys that end with the word; an unknown one is an error with a
- * suggestion. */
+/* Writes the help for the key with this full path, else for all keys that end with the word; an unknown one
+ * is an error with a suggestion. */
 pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
 {
     char plain[PG_PATTERN];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The keys of a scene as a JSON schema (draft 7), by which editors complete keys, show what they mean and
- * mark what is wrong. It comes from the rows that check a scene. What only the program can judge (units,
- * ranges of values with units, names of sets) is told in words. */
+ * The keys of a scene (input file) as a JSON schema (draft 7), by which editors complete keys, show what they
+ * mean and mark errors. It is made of the same rows that check a scene. What only the program can check
+ * (units, ranges of values with units, names of sets) is described in words. */
 #include "keys.h"
 #include <string.h>
 
-/* A text in quotes of JSON. */
+/* Writes a text as a JSON string. */
 static void put_text (FILE *to, const char *text)
 {
     fputc ('"', to);
@@ -16,8 +16,8 @@ static void put_text (FILE *to, const char *text)
     fputc ('"', to);
 }
 
-/* "a|b" as an enumeration, of texts or (1|2|3) of numbers; any text where not all choices are known here
- * (names of sets). */
+/* Writes choices "a|b" as an enumeration, of texts or (1|2|3) of numbers; as any text where not all choices
+ * are known here (names of sets). */
 static void put_choices (FILE *to, const char *names)
 {
     if (!names || !*names || strstr (names, "{}")) {
@@ -34,7 +34,8 @@ static void put_choices (FILE *to, const char *names)
     fputc (']', to);
 }
 
-/* What the value of a row may be. A number may always be a text: it then carries a unit, or is a formula. */
+/* Writes which types of JSON the value of a row may have. A number may always be a text: it then carries a
+ * unit, or is a formula. */
 static void put_type (FILE *to, const pg_key *key)
 {
     static const char value[] = "\"type\": [\"number\", \"string\"]";
@@ -79,7 +80,7 @@ static void put_meaning (FILE *to, const pg_key *key)
 
 static void put_node (FILE *to, const pg_schema *s, const char *pattern, int depth);
 
-/* The keys below a map: those with names, and what stands for names of the user's choice. */
+/* Writes the keys below a map: those with fixed names, and the one for names that the user chooses. */
 static void put_entries (FILE *to, const pg_schema *s, const char *pattern, int depth)
 {
     char names[PG_LEVEL_NAMES], below[PG_PATTERN];
@@ -101,7 +102,8 @@ static void put_entries (FILE *to, const pg_schema *s, const char *pattern, int 
     else fprintf (to, "false");
 }
 
-/* The first row of each kind of this path: number `wanted` of them, NULL: there are no more. */
+/* Of the rows of this path, the first of each kind: returns number `wanted` of these, NULL: there are no
+ * more. */
 static const pg_key *row_of (const pg_schema *s, const char *pattern, int wanted)
 {
     unsigned seen = 0;
@@ -114,8 +116,8 @@ static const pg_key *row_of (const pg_schema *s, const char *pattern, int wanted
     return NULL;
 }
 
-/* What stands at a pattern: all rows of that path, which may take values of several shapes, and what lies
- * below. */
+/* Writes the schema of a pattern: all rows of that path, which may take values of several shapes, and the
+ * keys below. */
 static void put_node (FILE *to, const pg_schema *s, const char *pattern, int depth)
 {
     char below[PG_PATTERN];

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Bytes of a scene file, at most. */
+/* Most bytes of a scene file. */
 enum { LARGEST = 1 << 28 };
 
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* some: as for pg_scene_load_some. */
+/* Reads a scene from a file; some: 1: as pg_scene_load_some does. */
 static pg_status load (pg_scene **out, const char *path, size_t nset, const char *const *set, int some)
 {
     pg_status status = PG_OK;

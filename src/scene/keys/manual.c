@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Writes doc/input.md: an introduction, then one section with a table of keys for each word at the top of a
- * scene. */
+ * Writes doc/input.md: an introduction, then one section with a table of keys for each top-level word of a
+ * scene (input file). */
 #include "keys.h"
 #include "scene/quantity/expression.h"
 #include <string.h>
 
-/* Text before the tables. */
+/* Text of the manual before the tables. */
 static const char introduction[] = "# The scene file\n\n"
                                    "This page is written by the program from the tables that also check a "
                                    "scene; `perigal help KEY` prints one entry.\n\n"
@@ -31,7 +31,7 @@ static const char overrides[] =
     "a list grows by\n"
     "naming the element after its last. Overrides enter the hash by which results name their scene.\n\n";
 
-/* The language of expressions, from its tables. */
+/* Writes the section about expressions, from the tables of variables and functions. */
 static void write_expressions (FILE *to)
 {
     fprintf (to, "## Expressions\n\nA value of kind *expression* is a number with unit or a formula. Numbers "
@@ -56,7 +56,7 @@ static void write_expressions (FILE *to)
                  "> 0`.\n\n");
 }
 
-/* Names in back quotes. */
+/* Writes names "a|b" in back quotes. */
 static void write_list (FILE *to, const char *names)
 {
     fprintf (to, "`");
@@ -67,7 +67,7 @@ static void write_list (FILE *to, const char *names)
     fprintf (to, "`");
 }
 
-/* One key as a row of a table. */
+/* Writes one key as a row of a table. */
 static void write_row (FILE *to, const pg_schema *s, const pg_key *key)
 {
     char first[PG_LEVEL_NAMES];
@@ -114,7 +114,7 @@ static int stands_alone (const pg_schema *s, size_t k)
     return !strpbrk (s->row[k]->path, ".[") && companions (s, k, s->n) == 1;
 }
 
-/* Title and head of a table. */
+/* Writes the title and head of a table. */
 static void write_title (FILE *to, const char *title, size_t n)
 {
     fprintf (
@@ -123,7 +123,7 @@ static void write_title (FILE *to, const char *title, size_t n)
         (int) n, title);
 }
 
-/* Keys that stand alone come first, in one table. */
+/* Writes the tables of keys. Keys that stand alone come first, in one table. */
 static void write_sections (FILE *to, const pg_schema *s)
 {
     static const char first[] = "The whole scene";

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The keys of the section `reference` of a scene: what the result is measured against. A row
- * has path, kind, unit, default and the text of the documentation; ranges are not needed here.
- * What the keys mean together (which exclude each other, which need each other) is checked in
- * reference.c. */
+ * The keys of the section `reference` of a scene (input file): what the result is measured against. A row has
+ * path, kind, unit, default and the text of the documentation; ranges are not needed here. How the keys
+ * depend on each other (which exclude each other, which need each other) is checked where the section is read
+ * (app/compare). */
 #include "perigal/scene.h"
 
 #define ROW(path, kind, unit, fallback, doc) { path, kind, unit, NULL, fallback, NULL, NULL, NULL, doc }

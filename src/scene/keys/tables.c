@@ -11,12 +11,12 @@
 #undef PG_KEYS
 #undef PG_ENTRY_KEYS
 
-/* Most tables, catalogues and copied rows; lengths of the texts of those. What does not fit is a fault of the
- * build, which every reading of a scene reports: raise the number that it names. */
+/* Most tables, catalogues and copied rows; lengths of the texts of copied rows. A limit that is too small is
+ * an error of the program, reported whenever a scene is read: raise the number that the message names. */
 enum { MOST_TABLES = 96, MOST_CATALOGUES = 16, MOST_TWINS = 64, TWIN_PATH = 96, TWIN_DOC = 160 };
 
-/* All tables: filled once, by the first who asks, and constant from then on. The twins are rows once
- * more, for the second place at which a catalogue takes the keys of its entries (pg_key_catalogue.also). */
+/* All tables: filled once, on the first request, and constant from then on. twin: copies of rows for the
+ * second path at which a catalogue takes the keys of its entries (pg_key_catalogue.also). */
 static struct {
     pthread_once_t once;
     pg_vocabulary words;
@@ -29,7 +29,8 @@ static struct {
     const char  *fault;                                /* the limit that was too small; NULL: none */
 } all = { .once = PTHREAD_ONCE_INIT };
 
-/* Notes the first limit that a number or a length of a text exceeds; 1: it does. */
+/* Does a number or the length of a text exceed its limit? Then 1, and the name of the first such limit is
+ * stored. */
 static int exceeds (size_t value, size_t limit, const char *name)
 {
     if (value <= limit) return 0;
@@ -37,7 +38,7 @@ static int exceeds (size_t value, size_t limit, const char *name)
     return 1;
 }
 
-/* A table and whose it is. */
+/* Adds a table and its owner: the catalogue, and the name of the entry. */
 static void add_table (const pg_key_table *table, const pg_key *declared, const pg_key_catalogue *catalogue,
                        const char *name)
 {
@@ -49,7 +50,7 @@ static void add_table (const pg_key_table *table, const pg_key *declared, const 
     all.table[all.words.n++] = *table;
 }
 
-/* Copies the rows of a table below the second place of their catalogue: "failure.cohesion" becomes
+/* Copies the rows of a table to the second path of their catalogue: "failure.cohesion" becomes
  * "materials.{}.failure.cohesion". */
 static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue *catalogue)
 {
@@ -68,8 +69,7 @@ static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue 
     return (pg_key_table) { table->folder, all.twin + first, all.ntwin - first };
 }
 
-/* Adds the table of an entry, or the entry's name to a table that it shares with one before; 1: it was
- * there. */
+/* Adds the entry's name to a table that it shares with an earlier entry; 1: there is such a table. */
 static int share_table (const pg_key_table *table, const char *name)
 {
     int shared = 0;
@@ -83,7 +83,7 @@ static int share_table (const pg_key_table *table, const char *name)
     return shared;
 }
 
-/* Tables of one entry; twice: also below the second place of the catalogue. */
+/* Adds the tables of one entry; twice 1: also at the second path of the catalogue. */
 static void add_tables (pg_key_tables list, const pg_key_catalogue *catalogue, const char *name, int twice)
 {
     for (; list && *list; list++) {
@@ -95,7 +95,7 @@ static void add_tables (pg_key_tables list, const pg_key_catalogue *catalogue, c
     }
 }
 
-/* Tables of all entries of a catalogue. */
+/* Adds the tables of all entries of a catalogue. */
 static void add_entries (const pg_key_catalogue *catalogue)
 {
     const char *name;
@@ -107,7 +107,7 @@ static void add_entries (const pg_key_catalogue *catalogue)
     }
 }
 
-/* Tables of all folders and catalogues, in the order of list.h. */
+/* Adds the tables of all folders and catalogues, in the order of list.h. */
 static void gather (void)
 {
     all.words = (pg_vocabulary) { .table = all.table, .owner = all.owner, .catalogue = all.catalogue };

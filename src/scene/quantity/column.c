@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Headers of the columns of tables, "u_x [mm]": name, unit, and values in that unit. */
+ * Headers of columns of tables, "u_x [mm]": splits name and unit, and converts values from that unit. */
 #include "unit.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Ends the text before the blanks in front of `end`. */
+/* Ends the text at `end`, without the blanks before it. */
 static void cut_blanks (char *end, const char *start)
 {
     while (end > start && (end[-1] == ' ' || end[-1] == '\t')) end--;
     *end = 0;
 }
 
-/* Units may stand in square brackets or in parentheses. */
+/* Splits a header into name and unit, which may be in square brackets or in parentheses. */
 pg_status pg_column_cut (char *header, const char **unit)
 {
     char *open = header + strcspn (header, "[("), *shut;
@@ -32,7 +32,7 @@ pg_status pg_column_cut (char *header, const char **unit)
     return PG_OK;
 }
 
-/* "1 mm" is read as a quantity, which also checks the dimension. */
+/* Finds the factor of a unit by reading "1 mm" as a quantity, which also checks the dimension. */
 pg_status pg_column_scale (double *scale, const char *unit, const char *kind)
 {
     char one[96];
@@ -43,7 +43,7 @@ pg_status pg_column_scale (double *scale, const char *unit, const char *kind)
     return pg_unit_parse (scale, one, kind);
 }
 
-/* Through pg_measure_scale, which divides by 1000 where a product with 0.001 would be rounded. */
+/* Converts by pg_measure_scale, which divides by 1000 where a product with 0.001 would be rounded. */
 double pg_column_value (double value, double scale)
 {
     const pg_measure m = { .factor = scale };

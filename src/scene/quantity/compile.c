@@ -8,14 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Characters of an expression, at most. */
+/* Most characters of an expression. */
 enum { LONGEST = 100000 };
 
 /* A rule of the grammar: reads its part of the text and describes it as an operand. */
 typedef pg_status (*rule) (pg_reader *, pg_operand *);
 static pg_status read_unary (pg_reader *, pg_operand *);
 
-/* A number with unit, a name, or an expression in parentheses. */
+/* Reads a number with unit, a name, or an expression in parentheses. */
 static pg_status read_primary (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -38,7 +38,7 @@ done:
 }
 
 /* ---- signs, from tight to loose ------------------------------------------------------------------------ */
-/* a ^ b; ^ binds to the right, as b may begin with a sign and hold a power of its own. */
+/* Reads a ^ b; ^ binds to the right, as b may begin with a sign and hold a power of its own. */
 static pg_status read_power (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -61,7 +61,7 @@ done:
     return status;
 }
 
-/* Signs. */
+/* Reads signs before an operand. */
 static pg_status read_unary (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -77,7 +77,7 @@ done:
     return status;
 }
 
-/* * and /, from left to right. */
+/* Reads * and /, from left to right. */
 static pg_status read_product (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -101,7 +101,7 @@ done:
     return status;
 }
 
-/* + and -, from left to right; both sides need the same dimension. */
+/* Reads + and -, from left to right; both sides need the same dimension. */
 static pg_status read_sum (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -120,7 +120,7 @@ done:
     return status;
 }
 
-/* Passes a sign of comparison; longer ones first. */
+/* Skips a comparison sign and returns its operation; longer signs are tried first. */
 static int take_comparison (pg_reader *p, pg_op *op)
 {
     static const struct { const char *sign; pg_op op; } signs[] = {
@@ -135,7 +135,7 @@ static int take_comparison (pg_reader *p, pg_op *op)
     return 0;
 }
 
-/* At most one comparison: a < b < c would mean something else than in mathematics. */
+/* Reads at most one comparison: a < b < c would mean something else than in mathematics. */
 static pg_status read_comparison (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -156,7 +156,7 @@ done:
     return status;
 }
 
-/* not needs a condition. */
+/* Reads `not`, which needs a condition. */
 static pg_status read_not (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -172,7 +172,7 @@ done:
     return status;
 }
 
-/* Operands of `next` joined by `word`. */
+/* Reads operands by the rule `next`, joined by `word`. */
 static pg_status read_joined (pg_reader *p, pg_operand *o, const char *word, pg_op op, rule next)
 {
     pg_status status = PG_OK;
@@ -197,7 +197,7 @@ static pg_status read_and (pg_reader *p, pg_operand *o)
 pg_status pg_read_or (pg_reader *p, pg_operand *o) { return read_joined (p, o, "or", PG_OP_OR, read_and); }
 
 /* ---- the whole ----------------------------------------------------------------------------------------- */
-/* Has the result the unit that is wanted? A bare number fits any. */
+/* Has the result the unit that is wanted? A number without unit fits any. */
 static pg_status check_result (pg_reader *p, const pg_operand *o, const char *unit)
 {
     pg_measure wanted;
@@ -213,7 +213,7 @@ static pg_status check_result (pg_reader *p, const pg_operand *o, const char *un
     return pg_read_fault (p, 0, "the result is in %s, expected %.*s", given, (int) n, unit);
 }
 
-/* The whole text must be one expression. */
+/* Reads the whole text, which must be one expression. */
 static pg_status read_all (pg_reader *p, const char *unit)
 {
     pg_status status = PG_OK;
@@ -230,9 +230,9 @@ done:
     return status;
 }
 
-/* A plain quantity in the full grammar of units ("5 1/s", "2 m s-1"), or an expression. t is taken as a
- * time in seconds first and, if that does not fit, as the load factor; of two faults the one farther on in
- * the text is reported. */
+/* Compiles a plain quantity in the full grammar of units ("5 1/s", "2 m s-1"), or an expression. t is taken
+ * as a time in seconds first and, if that does not fit, as the load factor; of two faults the one farther on
+ * in the text is reported. */
 static pg_status compile (pg_reader *p, const char *unit)
 {
     pg_status status = PG_OK;
@@ -263,7 +263,7 @@ static pg_status compile (pg_reader *p, const char *unit)
     return status;
 }
 
-/* The result is dimensioned in SI, whatever units the text uses. */
+/* Compiles an expression; its values are in SI, whatever units the text uses. */
 pg_status pg_expression_compile (pg_expression **out, const char *text, const char *unit)
 {
     pg_status status = PG_OK;

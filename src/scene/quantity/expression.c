@@ -14,7 +14,8 @@ static const pg_variable variables[] = {
     { "t",     PG_OP_T,     "time, s; the load factor 0 to 1 in a static scene" },
 };
 
-/* Name, operation, number of arguments (-2: two or more), dimensions it takes and gives, explanation. */
+/* The functions: name, operation, number of arguments (-2: two or more), dimensions it takes and gives,
+ * explanation. */
 static const pg_function functions[] = {
     { "sin", PG_OP_SIN, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "sine of an angle" },
     { "cos", PG_OP_COS, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "cosine of an angle" },
@@ -38,7 +39,7 @@ static const pg_function functions[] = {
       "distance r) and the seed b, a function of place alone" },
 };
 
-/* NULL past the end ends the loops of those who list them. */
+/* Returns NULL past the end, which ends loops over all functions. */
 const pg_function *pg_expression_function (size_t i)
 {
     return i < sizeof functions / sizeof *functions ? &functions[i] : NULL;
@@ -85,7 +86,7 @@ static const binary of_two[] = {
     [PG_OP_OR] = or,
 };
 
-/* Value of an operator; the compiler of expressions computes constants by it too, to the same bits. */
+/* Value of an operation; the compiler uses it for constants too, so that they have the same bits. */
 double pg_op_apply (pg_op op, double a, double b)
 {
     size_t k = (size_t) op;
@@ -95,7 +96,7 @@ double pg_op_apply (pg_op op, double a, double b)
 }
 
 /* ---- evaluation ---------------------------------------------------------------------------------------- */
-/* The order of pg_op says how many operands an operation takes. */
+/* Runs the code; the order of pg_op tells how many operands an operation takes. */
 double pg_expression_value (const pg_expression *e, const pg_place *at)
 {
     double stack[PG_STACK];
@@ -117,7 +118,7 @@ double pg_expression_value (const pg_expression *e, const pg_place *at)
     return n ? stack[0] : 0;
 }
 
-/* Bit op of `uses` was set by the compiler. */
+/* Does the variable occur? The compiler has set bit `op` of `uses`. */
 int pg_expression_uses (const pg_expression *e, char variable)
 {
     for (size_t k = 0; k < sizeof variables / sizeof *variables; k++)
@@ -126,7 +127,7 @@ int pg_expression_uses (const pg_expression *e, char variable)
     return 0;
 }
 
-/* Evaluated anywhere, as no variable occurs. */
+/* Evaluated at the origin, as no variable occurs. */
 int pg_expression_constant (const pg_expression *e, double *value)
 {
     static const pg_place origin;

@@ -47,7 +47,7 @@ typedef enum {
     PG_OP_OR
 } pg_op;
 
-/* An instruction; value: of a constant. */
+/* An instruction; value: of a constant, or the index of a random field. */
 typedef struct { pg_op op; double value; } pg_code;
 
 /* A compiled expression. */
@@ -56,14 +56,14 @@ struct pg_expression {
     size_t   n, cap;
     /* Bit op is set for each variable that occurs. */
     unsigned uses;
-    /* The random fields that occur: their waves (random_field.c); an instruction has the index. */
+    /* The plane waves of the random fields that occur (random_field.c). */
     double **field;
     size_t   nfield, fieldcap;
 };
 
-/* Dimensions of the arguments of a function: none, any, the same for all; of its result: none, that of the
- * argument, its square root. */
-/* PG_TAKES_FIELD: a length and a seed, both constant. */
+/* Dimensions of the arguments of a function (takes): none, any, the same for all; of its result (gives):
+ * none, that of the argument, its square root. */
+/* PG_TAKES_FIELD: the arguments are a length and a seed, both constant. */
 typedef enum { PG_TAKES_PLAIN, PG_TAKES_ANY, PG_TAKES_ALIKE, PG_TAKES_FIELD } pg_takes;
 typedef enum { PG_GIVES_PLAIN, PG_GIVES_SAME, PG_GIVES_ROOT } pg_gives;
 
@@ -82,11 +82,12 @@ typedef struct { const char *name; pg_op op; const char *doc; } pg_variable;
 /* Function or variable i; NULL past the end. */
 const pg_function *pg_expression_function (size_t i);
 const pg_variable *pg_expression_variable (size_t i);
-/* The operation on one or two numbers. */
+/* Computes an operation on one (a) or two numbers. */
 double pg_op_apply (pg_op op, double a, double b);
-/* The waves of a random field with a correlation length (m), freed by pg_free; its value at a place. */
+/* Creates the plane waves of a random field with a correlation length (m), freed by pg_free; returns the
+ * value of the field at a position. */
 pg_status pg_field_create (double **out, double length, double seed);
 double    pg_field_value  (const double *wave, const pg_place *at);
-/* 1 when no variable occurs: *value is its value then. */
+/* 1: no variable occurs, and *value is the value of the expression. */
 int    pg_expression_constant (const pg_expression *e, double *value);
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Words and signs in the text of an expression. */
+ * Reads words and signs in the text of an expression. */
 #include "compile.h"
 #include <ctype.h>
 #include <stdarg.h>
 #include <string.h>
 
-/* Columns are counted from 1. */
+/* Reports a fault with its column, counted from 1. */
 pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
 {
     char text[400];
@@ -17,7 +17,7 @@ pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
     return pg_error (PG_E_SCENE, PG_HERE, "column %zu: %s", at + 1, text);
 }
 
-/* Line ends too: expressions may be folded in YAML. */
+/* Skips blanks and line ends: expressions may be folded in YAML. */
 void pg_read_skip (pg_reader *p)
 {
     while (p->text[p->at] && strchr (" \t\r\n", p->text[p->at])) p->at++;
@@ -29,7 +29,7 @@ int pg_read_is_letter (char c)
     return isalpha ((unsigned char) c) || c == '_' || c == '%' || (unsigned char) c >= 0x80;
 }
 
-/* The sign % is a word of its own. */
+/* Length of a word; the sign % is a word of its own. */
 size_t pg_word_length (const char *s)
 {
     size_t n = 0;
@@ -38,13 +38,13 @@ size_t pg_word_length (const char *s)
     return n;
 }
 
-/* Is the word of n bytes at s this one? */
+/* Is the word of n bytes at s equal to `word`? */
 int pg_is_word (const char *s, size_t n, const char *word)
 {
     return strlen (word) == n && memcmp (s, word, n) == 0;
 }
 
-/* A symbol of letters must be a whole word. */
+/* Skips a symbol; one of letters must be a whole word. */
 int pg_read_take (pg_reader *p, const char *symbol)
 {
     pg_read_skip (p);

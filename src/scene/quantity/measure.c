@@ -8,7 +8,7 @@
 #include <string.h>
 #include <udunits2.h>
 
-/* Length of the text of a unit; number of units remembered. */
+/* WORD: room for the text of a unit, in bytes. REMEMBERED: number of units cached. */
 enum { WORD = 40, REMEMBERED = 128 };
 
 /* The database of udunits2, read once on first use, and the units met since, by hash: reading the
@@ -45,7 +45,7 @@ static void load (void)
 /* Base units in the order of pg_measure.power. */
 static const char *const base_symbol[PG_BASE_UNITS] = { "m", "kg", "s", "A", "K", "mol", "cd" };
 
-/* Adds a power of a base unit. */
+/* Adds a power of a base unit to *m. */
 static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
 {
     const char *symbol = ut_get_symbol (unit, UT_ASCII);
@@ -56,7 +56,7 @@ static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
     return UT_SUCCESS;
 }
 
-/* Called by udunits2 for each kind of unit in the tree of one. */
+/* Visitors, which udunits2 calls for each kind of unit in the tree of a unit. */
 static ut_status visit_basic (const ut_unit *unit, void *p) { return add_basic (unit, 1, p); }
 
 /* A product of powers of base units. */
@@ -73,7 +73,7 @@ static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const
 
 static ut_visitor visitor;
 
-/* A factor; units with an origin (degC) have no meaning here. */
+/* Multiplies the factor; units with an origin (degC) are refused. */
 static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_unit *under, double origin,
                                  void *p)
 {
@@ -84,7 +84,7 @@ static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_uni
     return ut_accept_visitor (under, &visitor, p);
 }
 
-/* Times since an origin, and logarithmic units, have no place in formulas. */
+/* Refuses times since an origin, and logarithmic units: they cannot be used in formulas. */
 static ut_status visit_time (const ut_unit *unit, const ut_unit *second, double origin, void *p)
 {
     (void) unit, (void) second, (void) origin, (void) p;
@@ -100,7 +100,7 @@ static ut_status visit_log (const ut_unit *unit, double base, const ut_unit *ref
 static ut_visitor visitor = { visit_basic, visit_product, visit_galilean, visit_time, visit_log };
 
 /* ---- text ---------------------------------------------------------------------------------------------- */
-/* Letters of unit names, in UTF-8. */
+/* Is c part of the name of a unit, in UTF-8? */
 static int is_letter (char c)
 {
     unsigned char u = (unsigned char) c;
@@ -109,7 +109,7 @@ static int is_letter (char c)
 
 static int is_digit (char c) { return c >= '0' && c <= '9'; }
 
-/* Each of these skips one part of the text of a unit; NULL: it is not there. */
+/* skip_word, skip_power and skip_joint each skip one part of the text of a unit; NULL: it is not there. */
 static const char *skip_word (const char *s)
 {
     if (!is_letter (*s)) return NULL;
@@ -119,7 +119,7 @@ static const char *skip_word (const char *s)
 
 static int is_sign (char c) { return c == '-' || c == '+'; }
 
-/* A whole power, with or without ^: "2", "-1", "^+3"; after ^ there must be one. */
+/* Skips a whole power, with or without ^: "2", "-1", "^+3"; after ^ there must be one. */
 static const char *skip_power (const char *s)
 {
     int raised = *s == '^';
@@ -130,7 +130,7 @@ static const char *skip_power (const char *s)
     return s;
 }
 
-/* What joins two words: space . * or /, with blanks around it. */
+/* Skips what joins two words: space . * or /, with blanks around it. */
 static const char *skip_joint (const char *s)
 {
     while (*s == ' ' && s[1] && strchr (" /*.", s[1])) s++;
@@ -140,8 +140,8 @@ static const char *skip_joint (const char *s)
     return s;
 }
 
-/* Words with whole powers, joined by space . * or /, perhaps after "1/". udunits2 alone would also accept
- * "m)" or "5 m @ 3". */
+/* Is the text words with whole powers, joined by space . * or /, perhaps after "1/"? udunits2 alone would
+ * also accept "m)" or "5 m @ 3". */
 static int well_formed (const char *s)
 {
     if (s[0] == '1' && s[1] == '/') s += 2;
@@ -155,7 +155,7 @@ static int well_formed (const char *s)
     }
 }
 
-/* By udunits2; 0: no unit with a positive factor. */
+/* Reads a unit by udunits2; 0: it is no unit with a positive factor. */
 static int parse (const char *text, pg_measure *m)
 {
     ut_unit *unit = ut_parse (database.units, text, UT_UTF8);
@@ -166,7 +166,7 @@ static int parse (const char *text, pg_measure *m)
     return good;
 }
 
-/* Hash of a text. */
+/* Slot of a text in the cache of units, by a hash. */
 static size_t place_of (const char *text)
 {
     size_t h = 5381;
@@ -174,8 +174,8 @@ static size_t place_of (const char *text)
     return h % REMEMBERED;
 }
 
-/* Units that most scenes make do with: reading the database takes longer than a small run. The same bits as
- * udunits2 gives. */
+/* Units that suffice for most input files: reading the database takes longer than a small run. Factors have
+ * the same bits as those of udunits2. */
 static const struct { const char *text; double factor, m, kg, s, angle;
 } common[] = {
     { "m", 1, 1, 0, 0, 0 },         { "mm", 1e-3, 1, 0, 0, 0 },     { "m2", 1, 2, 0, 0, 0 },
@@ -204,7 +204,7 @@ static int is_common (pg_measure *m, const char *text, size_t n)
     return 0;
 }
 
-/* Is it a name of the degree of Celsius (n bytes)? No key takes a charge: C is no coulomb here. */
+/* Is the word of n bytes a name of the degree Celsius? No key takes a charge: C is no coulomb here. */
 static int is_celsius (const char *s, size_t n)
 {
     static const char *const name[] = { "C",       "degC",           "\302\260C",
@@ -214,8 +214,8 @@ static int is_celsius (const char *s, size_t n)
     return 0;
 }
 
-/* Temperatures are differences wherever a scene has them: degrees of Celsius are kelvins, in products and
- * quotients as well; "/K" is 1/K. 0: the result does not fit. */
+/* Writes a unit in the form that udunits2 reads: temperatures are always differences, so that degrees Celsius
+ * are kelvins, in products and quotients as well; "/K" becomes "1/K". 0: the result does not fit. */
 static int spell_out (const char *text, size_t n, char word[WORD])
 {
     size_t used = 0;
@@ -234,7 +234,7 @@ static int spell_out (const char *text, size_t n, char word[WORD])
     return 1;
 }
 
-/* Unknown units are a fault with a suggestion. */
+/* Reads a unit; an unknown one is a fault with a suggestion. */
 pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
 {
     static const char usual[] =
@@ -245,21 +245,22 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
         *m = (pg_measure) { .factor = 1 };
         return PG_OK;
     }
-    /* Without the database, if possible. */
+    /* Common units do not need the database. */
     if (is_common (m, text, n)) return PG_OK;
     if (!spell_out (text, n, word)) {
         snprintf (word, sizeof word, "%.*s", WORD - 1, text);
         return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
     }
     if (is_common (m, word, strlen (word))) return PG_OK;
-    /* an expression is asked as well whether it is a number with a unit: nothing to read for that */
+    /* expressions come here too, to test whether they are a number with a unit: these do not need the
+     * database */
     int good = well_formed (word);
     if (good) {
         pthread_once (&database.once, load);
         if (!database.units)
             return pg_error (PG_E_FILE, PG_HERE,
                              "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
-        /* A unit that was met before, or udunits2. */
+        /* Taken from the cache, or read by udunits2. */
         pthread_mutex_lock (&database.lock);
         size_t k = place_of (word);
         if (strcmp (database.met[k].text, word) == 0) *m = database.met[k].measure;
@@ -276,7 +277,7 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s'", word);
 }
 
-/* Powers may be fractions, from roots; 1e-9 tells them apart. */
+/* Powers may be fractions, from roots; they are compared to 1e-9. */
 int pg_measure_same (const pg_measure *a, const pg_measure *b)
 {
     for (int k = 0; k < PG_BASE_UNITS; k++)
@@ -284,15 +285,15 @@ int pg_measure_same (const pg_measure *a, const pg_measure *b)
     return 1;
 }
 
-/* rad counts as 1. */
+/* Is the unit dimensionless? rad counts as 1. */
 int pg_measure_plain (const pg_measure *m)
 {
     static const pg_measure one = { .factor = 1 };
     return pg_measure_same (m, &one);
 }
 
-/* Where the factor is the inverse of a whole number, division by that is exact where the product would be
- * rounded: 3 mm is exactly 0.003 m. */
+/* Converts to SI. Where the factor is the inverse of a whole number, division by that is exact where the
+ * product would be rounded: 3 mm is exactly 0.003 m. */
 double pg_measure_scale (double value, const pg_measure *m)
 {
     double inverse = round (1 / m->factor);
@@ -312,7 +313,7 @@ static const struct { const char *unit; double m, kg, s; const char *example;
     { "J", 2, 1, -2, "5 J" },       { "N/m3", -2, 1, -2, "25 kN/m3" },   { "N s/m", 0, 1, -1, "5 N s/m" },
 };
 
-/* Has row k this dimension? */
+/* Has row k of `known` this dimension? */
 static int is_known (size_t k, const pg_measure *m)
 {
     const pg_measure other = { .factor = 1, .power = { known[k].m, known[k].kg, known[k].s } };
@@ -327,7 +328,7 @@ void pg_measure_text (const pg_measure *m, char *out, size_t n)
         return;
     }
     size_t used = 0;
-    /* No name: as powers of base units. */
+    /* The dimension has no name: written as powers of base units. */
     for (int k = 0; k < PG_BASE_UNITS && used < n; k++) {
         if (fabs (m->power[k]) < 1e-9) continue;
         int more = snprintf (out + used, n - used, "%s%s", used ? " " : "", base_symbol[k]);
@@ -337,7 +338,7 @@ void pg_measure_text (const pg_measure *m, char *out, size_t n)
     }
 }
 
-/* An example for this very unit, else for its dimension. */
+/* Returns an example of a value in this unit, else one of its dimension. */
 const char *pg_measure_example (const pg_measure *m, const char *unit)
 {
     const char *example = NULL;

@@ -25,7 +25,7 @@ pg_status pg_operand_push (pg_reader *p, pg_operand *o, double value)
     return pg_operand_emit (p, PG_OP_CONSTANT, value);
 }
 
-/* Of known operands only one constant remains in the code. */
+/* Applies an operation to operands; if their values are known, only one constant remains in the code. */
 pg_status pg_operand_combine (pg_reader *p, pg_op op, pg_operand *a, const pg_operand *b)
 {
     if (!a->fixed || (b && !b->fixed)) {
@@ -47,7 +47,7 @@ pg_status pg_operand_number (pg_reader *p, const pg_operand *o, size_t at)
     return o->condition ? pg_read_fault (p, at, "a condition cannot be used as a number") : PG_OK;
 }
 
-/* An operand that is bare on the left takes the dimension of the right one. */
+/* If only the left operand has no unit it takes the dimension of the right one. */
 pg_status pg_operand_agree (pg_reader *p, pg_operand *a, const pg_operand *b, size_t at, const char *verb)
 {
     char left[80], right[80];

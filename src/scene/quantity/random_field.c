@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * random_field (length, seed): a Gaussian random field of mean 0 and variance 1 as a function of place,
+ * random_field (length, seed): a Gaussian random field of mean 0 and variance 1 as a function of position,
  * whatever the points, their order and the threads. It is a sum of plane waves,
  *
- *     g (x) = sqrt (2 / M) sum_m cos (k_m . x + phi_m),
+ * g (x) = sqrt (2 / M) sum_m cos (k_m . x + phi_m),
  *
  * with wave vectors k_m normal with deviation 1 / length along each axis and phases phi_m uniform (Shinozuka
  * and Deodatis 1991), so that its correlation is exp (- r^2 / (2 length^2)) on the mean over seeds. */
@@ -20,15 +20,15 @@ static uint64_t mix (uint64_t z)
     return z ^ (z >> 31);
 }
 
-/* Uniform in (0, 1): number n of a seed. */
+/* Random number n of a seed, uniform in (0, 1). */
 static double uniform (uint64_t seed, uint64_t n)
 {
     uint64_t z = mix (mix (seed + 0x9e3779b97f4a7c15u) + n + 1);
     return ldexp ((double) (z >> 12) + 0.5, -52);
 }
 
-/* Two independent normal numbers from two uniform ones (Box and Muller 1958); waves of one index have the
- * same numbers for every length, so that fields of two lengths are one picture at two sizes. */
+/* Wave vectors are made of independent normal numbers, two from two uniform ones (Box and Muller 1958); the
+ * numbers do not depend on the length, so that fields of two lengths are one field at two scales. */
 pg_status pg_field_create (double **out, double length, double seed)
 {
     pg_status status = PG_OK;

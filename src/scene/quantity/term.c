@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers with units, names and calls of functions in an expression. A unit is what follows a number and is
- * no word of the language: in "2 mm * x" mm is a unit, in "2 * x" x is the variable, and "2 x" is refused
- * as ambiguous. */
+ * Reads numbers with units, names and calls of functions in an expression. A unit is what follows a number
+ * and is no word of the language: in "2 mm * x" mm is a unit, in "2 * x" x is the variable, and "2 x" is
+ * refused as ambiguous. */
 #include "compile.h"
 #include <math.h>
 #include <string.h>
 
-/* Length of "^2" or "^-1"; 0: no whole exponent. */
+/* Length of an exponent, "^2" or "^-1"; 0: there is no whole exponent. */
 static size_t exponent_length (const char *s)
 {
     size_t n = *s == '^';
@@ -16,8 +16,8 @@ static size_t exponent_length (const char *s)
     return digits && s[n + digits] != '.' ? n + digits : 0;
 }
 
-/* The unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. Copied without
- * blanks. */
+/* Reads the unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. It is copied
+ * without blanks. */
 static pg_status read_unit (pg_reader *p, char *unit, size_t size)
 {
     pg_status status = PG_OK;
@@ -53,7 +53,7 @@ done:
     return status;
 }
 
-/* A unit; what is wrong with it becomes a fault at a position. */
+/* Reads a unit; an error becomes a fault at position `at`. */
 static pg_status measure_of (pg_reader *p, pg_measure *m, const char *word, size_t n, size_t at)
 {
     pg_status status = pg_measure_read (m, word, n);
@@ -63,7 +63,8 @@ static pg_status measure_of (pg_reader *p, pg_measure *m, const char *word, size
     return pg_read_fault (p, at, "%s", why);
 }
 
-/* Sizes beyond 1e60 or below 1e-60 are refused: their products would leave the range of a double. */
+/* Reads a number with its unit. Sizes beyond 1e60 or below 1e-60 are refused: their products would leave the
+ * range of a double. */
 pg_status pg_read_number (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -86,7 +87,7 @@ done:
     return status;
 }
 
-/* Argument n of a function: the first becomes o, each other one is combined with it. */
+/* Reads argument n of a function: the first becomes o, each other one is combined with it. */
 static pg_status read_argument (pg_reader *p, pg_operand *o, const pg_function *f, int n)
 {
     pg_status status = PG_OK;
@@ -109,7 +110,7 @@ done:
     return status;
 }
 
-/* random_field (length, seed), behind its name: both are computed now, and their code makes room for one
+/* Reads random_field (length, seed) after its name: both are computed now, and their code is replaced by one
  * instruction. */
 static pg_status read_field (pg_reader *p, pg_operand *o)
 {
@@ -139,7 +140,7 @@ done:
     return status;
 }
 
-/* A function behind its name: "( argument, ... )". */
+/* Reads the arguments of a function after its name: "( argument, ... )". */
 static pg_status read_call (pg_reader *p, pg_operand *o, const pg_function *f)
 {
     pg_status status = PG_OK;
@@ -162,7 +163,7 @@ done:
     return status;
 }
 
-/* The message about a name that is not known. */
+/* Writes the message for an unknown name. */
 static void unknown_name (const char *s, size_t n, char *out, size_t size)
 {
     char known[400] = "pi", word[PG_WORD];
@@ -179,7 +180,7 @@ static void unknown_name (const char *s, size_t n, char *out, size_t size)
     else snprintf (out, size, "unknown name '%s'; variables are x, y, z, r, angle, t", word);
 }
 
-/* Coordinates are in m; t is in s or a plain number. */
+/* Reads a variable. Coordinates are in m; t is in s or a plain number. */
 static pg_status read_variable (pg_reader *p, pg_operand *o, const pg_variable *v)
 {
     o->first = p->e->n;
@@ -193,7 +194,7 @@ static pg_status read_variable (pg_reader *p, pg_operand *o, const pg_variable *
     return pg_operand_emit (p, v->op, 0);
 }
 
-/* A variable, a function, pi, a truth value, or a unit by itself as in x/mm. */
+/* Reads a variable, a function, pi, a truth value, or a unit by itself as in x/mm. */
 pg_status pg_read_name (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;

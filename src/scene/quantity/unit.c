@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Numbers with units ("10 GPa" gives 1e10) and ranges ("[0, 0.5)").
  *
- * A number without a unit is in SI. A unit must have the dimension that the key wants; of dimensionless
- * ones angles and plain numbers are told apart. Conversions divide where that is exact and multiplication
+ * A number without a unit is in SI. A unit must have the dimension that the key wants; angles and plain
+ * numbers, both dimensionless, are distinguished. Conversions divide where that is exact and multiplication
  * is not, so that "3 mm" is the double nearest to 0.003. */
 #include "unit.h"
 #include <locale.h>
@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Characters of a number, at most. */
+/* Most characters of a number. */
 enum { LONGEST_NUMBER = 400 };
 
-/* Behind digits; behind blanks. */
+/* Return the text after digits, and after blanks. */
 static const char *skip_digits (const char *s)
 {
     while (*s >= '0' && *s <= '9') s++;
@@ -26,7 +26,7 @@ static const char *skip_space (const char *s)
     return s;
 }
 
-/* Sign, digits with at most one point, and an exponent if it is complete. */
+/* A number is a sign, digits with at most one point, and an exponent if it is complete. */
 const char *pg_number_end (const char *text)
 {
     const char *s = text + (*text == '-' || *text == '+'), *digits = s;
@@ -45,7 +45,8 @@ const char *pg_number_end (const char *text)
     return s - text < LONGEST_NUMBER ? s : NULL;
 }
 
-/* strtod follows the locale of the program: it gets the decimal point of that locale. */
+/* Reads a number. strtod follows the locale of the program: the text gets the decimal point of that
+ * locale. */
 const char *pg_number_read (const char *text, double *value)
 {
     const char *end = pg_number_end (text);
@@ -68,7 +69,7 @@ const char *pg_number_read (const char *text, double *value)
 }
 
 /* ---- number with unit ---------------------------------------------------------------------------------- */
-/* Length of the unit before the alternative "|spacing"; is there that alternative? */
+/* Length of the unit before the alternative "|spacing"; does the unit have that alternative? */
 static size_t unit_length (const char *unit) { return strcspn (unit, "|"); }
 static int takes_spacing (const char *unit) { return strstr (unit, "|spacing") != NULL; }
 
@@ -85,7 +86,7 @@ static const char *example_of (const char *unit)
     return text;
 }
 
-/* The unit in words. */
+/* Describes the unit in words. */
 static const char *unit_words (const char *unit)
 {
     static _Thread_local char text[80];
@@ -129,7 +130,7 @@ pg_status pg_quantity_sane (double value)
     return PG_OK;
 }
 
-/* A comma is reported as such: it is the decimal mark of many languages. */
+/* Reads a number with unit. A comma is reported as such: it is the decimal mark of many languages. */
 pg_status pg_quantity_read (double *out, int *spacing, const char *text, const char *unit)
 {
     double value;
@@ -168,7 +169,7 @@ pg_status pg_unit_parse (double *out, const char *text, const char *unit)
 }
 
 /* ---- ranges -------------------------------------------------------------------------------------------- */
-/* A bound of a range: a number, "pi", "2 pi", "pi/2", "inf" or "-inf". NULL: none of these. */
+/* Reads a bound of a range: a number, "pi", "2 pi", "pi/2", "inf" or "-inf". NULL: none of these. */
 static const char *read_bound (const char *s, double *value)
 {
     s = skip_space (s);
@@ -193,14 +194,14 @@ static const char *read_bound (const char *s, double *value)
     return end;
 }
 
-/* A bracket includes its bound, a parenthesis does not. */
+/* Does the value lie in the range? A bracket includes its bound, a parenthesis does not. */
 int pg_range_holds (const char *range, double value, int *fault)
 {
     double low, high;
     *fault = 0;
     if (!range) return 1;
-    /* Both bounds, and nothing behind; a wrong range in a key table is a fault of the program, found by
-     * tests. */
+    /* Reads both bounds; nothing may follow. A wrong range in a key table is an error of the program, found
+     * by tests. */
     const char *s = *range == '[' || *range == '(' ? read_bound (range + 1, &low) : NULL;
     if (s) s = *(s = skip_space (s)) == ',' ? read_bound (s + 1, &high) : NULL;
     if (s) s = skip_space (s);
