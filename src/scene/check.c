@@ -6,14 +6,14 @@
 #include "value.h"
 #include <string.h>
 
-/* Most unknown keys of a map that are reported by name; the others are counted. */
+/* Largest number of unknown keys of a map that are reported by name; the others are counted. */
 enum { NAMED = 10 };
 
 static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT]);
 
 #define FAULT(node, value, ...) pg_faults_add (s->faults, s->file, (node), path, (value), __VA_ARGS__)
 
-/* ---- unknown and doubled keys -------------------------------------------------------------------------- */
+/* ---- unknown and repeated keys ------------------------------------------------------------------------- */
 /* The path of a key of that name anywhere else, such as "materials.NAME.density"; NULL: there is none. */
 static const char *known_elsewhere (const pg_schema *schema, const char *name)
 {
@@ -206,7 +206,8 @@ done:
     return status;
 }
 
-/* Gives a key without a value a shape: an empty list where only a list fits, likewise a map. */
+/* Gives a key without a value a shape: an empty list where only a list fits, an empty map where only a map
+ * fits. */
 static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char *pattern)
 {
     if (!pg_node_null (node) || pg_schema_row (schema, pattern, PG_SCALAR)) return;
@@ -252,7 +253,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
     return PG_OK;
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------- */
+/* ---- the whole tree ------------------------------------------------------------------------------------ */
 /* Reads and checks the defaults as if the user had written them. */
 static pg_status check_defaults (pg_scene *s)
 {

@@ -158,7 +158,7 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
         const char *rest = rest_of (s->row[k]->path, pattern);
         if (!rest || (*pattern && *rest != '.')) continue;
         rest += *pattern != '\0';
-        /* The first word behind the pattern. */
+        /* Length of the first word after the pattern. */
         size_t n = strcspn (rest, ".[");
         if (n == 0 || rest[0] == '{' || listed (names, rest, n) || used + n + 2 > PG_LEVEL_NAMES) continue;
         used += (size_t) snprintf (names + used, PG_LEVEL_NAMES - used, "%s%.*s", used ? "|" : "", (int) n,

@@ -5,10 +5,10 @@
 #define PG_SCENE_SCHEMA_H
 #include "node.h"
 
-/* Most bytes of a pattern, and of the names of all keys of one level. */
+/* Room for a pattern, and for the names of all keys of one level, in bytes. */
 enum { PG_PATTERN = 256, PG_LEVEL_NAMES = 2000 };
 
-/* Most bytes of the names of entries that share a table. */
+/* Room for the names of entries that share a table, in bytes. */
 enum { PG_OWNER_NAMES = 240 };
 
 /* The catalogue entry that owns a table: its rows as the entry declares them, its catalogue, and the names of

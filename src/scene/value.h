@@ -4,7 +4,7 @@
 #define PG_SCENE_VALUE_H
 #include "document.h"
 
-/* Most bytes of a path in messages. */
+/* Room for a path in messages, in bytes. */
 enum { PG_PATH_TEXT = 512 };
 
 /* Origin (pg_node.origin) of the nodes made from defaults. */

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <yaml.h>
 
-/* Most levels of nesting. */
+/* Largest number of nested levels. */
 enum { DEEPEST = 30 };
 
 /* State of the conversion. */

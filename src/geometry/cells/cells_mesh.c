@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- names --------------------------------------------------------------------------------------------- */
+/* ---- names of sets ------------------------------------------------------------------------------------- */
 /* Is c a letter (any byte beyond ASCII counts as part of one), a digit, - or _? */
 static int is_plain (unsigned char c)
 {

@@ -161,7 +161,7 @@ static int vertex_at (pg_cell_part *p, const double *x, double nothing)
     return -1;
 }
 
-/* Appends a vertex and the edge behind it. */
+/* Appends a vertex and the edge that begins at it; 0: there is no room. */
 static int append (pg_cell_part *p, const double *x, int side, int crack)
 {
     if (p->n == PG_PART_EDGES) return 0;

@@ -116,7 +116,7 @@ typedef struct {
     /* Coordinates that divide the level's axis. hard: the interval of integration ends here, in [-1, 1].
      * soft: near here the height of a surface behaves like a square root, also a little outside [-1, 1];
      * the quadrature of the neighbouring interval substitutes it away. */
-    cut_list hard, soft;  /* soft: here the height of a surface behaves like a square root */
+    cut_list hard, soft;
     /* The surfaces, restricted to the present slice. */
     cut_quadric *q;
 } cut_level;
@@ -147,7 +147,7 @@ typedef struct {
     cut_level level[3];
     /* The present position, local. */
     double at[3];
-    /* First failure on the way (memory). */
+    /* First failure of the recursion (out of memory). */
     pg_status status;
     /* Searches by cut_solve that were given up. */
     size_t given_up;

@@ -80,7 +80,7 @@ static int face_of (const builder *m, const int *i, int surface)
     return -1;
 }
 
-/* ---- which surfaces are near --------------------------------------------------------------------------- */
+/* ---- surfaces near each box ---------------------------------------------------------------------------- */
 /* Can the surface come within 2 cut_snap, and rounding, of box i? First by its bounding box, then by a bound
  * of psi in local coordinates (cut_meets). */
 static int is_near (const builder *m, const cut_surface *s, const int *i)
@@ -96,7 +96,8 @@ static int is_near (const builder *m, const cut_surface *s, const int *i)
     return cut_meets (&q, origin, all, 2 * (cut_snap + m->cut->rounding / least));
 }
 
-/* For the planes of a mesh seen as a staircase: does the staircase have a step at that face of box i? */
+/* For a plane of a mesh that is represented by a staircase: has the staircase a step at the face of box i
+ * that lies on it? */
 static int is_step (const builder *m, size_t number, const int *i)
 {
     int face = face_of (m, i, (int) number);
@@ -477,7 +478,7 @@ void cut_free (struct pg_cut *cut)
     pg_free (cut);
 }
 
-/* ---- use ----------------------------------------------------------------------------------------------- */
+/* ---- quadrature of cells and facets -------------------------------------------------------------------- */
 /* Prepares the workspace for a cell of pg_cells: its first and its diagonally opposite corner span the
  * box. */
 static pg_status enter (const pg_cells *cells, size_t cell)
@@ -490,7 +491,7 @@ static pg_status enter (const pg_cells *cells, size_t cell)
                           cut->near + cut->start[cell]);
 }
 
-/* The larger of the order asked for and the least order of these cells. */
+/* Returns the larger of the requested order and the least order of these cells. */
 static int finer (const pg_cells *cells, int order)
 {
     return order > cells->cut_order ? order : cells->cut_order;

@@ -54,7 +54,7 @@ void pg_cut_points_clear (pg_cut_points *p)
     memset (p, 0, sizeof *p);
 }
 
-/* ---- rules --------------------------------------------------------------------------------------------- */
+/* ---- Gauss rules --------------------------------------------------------------------------------------- */
 /* Points and weights on [0, 1] of the Gauss rule of n points. */
 static const double *rule_x (const cut_work *w, int n) { return w->x + n * (n - 1) / 2; }
 static const double *rule_w (const cut_work *w, int n) { return w->w + n * (n - 1) / 2; }
@@ -171,7 +171,7 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     return status;
 }
 
-/* ---- lines --------------------------------------------------------------------------------------------- */
+/* ---- points on a line ---------------------------------------------------------------------------------- */
 /* Is the position at height z on the present line in the body? For quadrature on a face: is the body on both
  * sides of the face there? */
 static int inside (const cut_work *w, double z)
@@ -391,7 +391,7 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
     }
 }
 
-/* ---- the walk ------------------------------------------------------------------------------------------ */
+/* ---- recursion over slices ----------------------------------------------------------------------------- */
 /* Quadrature over level k of the recursion, k = 0 first; weight: product of the weights so far. */
 static void walk (cut_work *w, int k, double weight);
 
@@ -535,7 +535,7 @@ double cut_work_size (const cut_work *w)
 double cut_work_unsettled (const cut_work *w) { return w->unsettled; }
 size_t cut_work_given_up (const cut_work *w) { return w->slices.given_up; }
 
-/* ---- to rounding --------------------------------------------------------------------------------------- */
+/* ---- sizes to rounding accuracy ------------------------------------------------------------------------ */
 /* Sum of weights, their centroid and the integral of the normal. */
 static cut_piece sum_up (const pg_cut_points *p, size_t dim)
 {

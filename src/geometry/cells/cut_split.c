@@ -51,7 +51,7 @@ int cut_same_facets (const cut_slices *s, size_t i, size_t j)
     return s->facets[i] && s->facets[i] == s->facets[j];
 }
 
-/* ---- slices: psi = a z^2 + B (y) z + C (y) ------------------------------------------------------------- */
+/* ---- splits of slices: psi = a z^2 + B (y) z + C (y) --------------------------------------------------- */
 /* A surface within a plane slice: a z^2 + (B[0] + B[1] y) z + C[0] + C[1] y + C[2] y^2. */
 typedef struct { double a, B[2], C[3]; } conic;
 
@@ -204,7 +204,7 @@ static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *o
     }
 }
 
-/* ---- solids -------------------------------------------------------------------------------------------- */
+/* ---- splits of 3D cells -------------------------------------------------------------------------------- */
 /* Where surface q has an extreme value along x inside the cell: d psi / dy = d psi / dz = 0 and psi = 0.
  * The first two are linear and give y and z as linear functions of x, evaluated at x = -1, 0, 1; psi along
  * them is a quadratic polynomial through three values. */
@@ -312,7 +312,7 @@ static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
     split_box_faces (s, q, out);
 }
 
-/* ---- edges of facets ----------------------------------------------------------------------------------- */
+/* ---- splits at edges of regions ------------------------------------------------------------------------ */
 /* Sets x to the point of the edge at which coordinate k is `at`; 0: the edge has none. */
 static int edge_at (const double *edge, int k, double at, double *x)
 {

@@ -18,7 +18,7 @@ typedef struct {
     size_t n, nx, nfacet, nfx;
 } choice;
 
-/* ---- which ones ---------------------------------------------------------------------------------------- */
+/* ---- choice of cells ----------------------------------------------------------------------------------- */
 /* Bounding box of the points that this rank owns, widened by `reach` (m). */
 static void region_of (const pg_cloud *c, const int *owner, double reach, double *low, double *high)
 {
@@ -86,7 +86,7 @@ done:
     return status;
 }
 
-/* ---- copies -------------------------------------------------------------------------------------------- */
+/* ---- copying what is kept ------------------------------------------------------------------------------ */
 static pg_status copy_cells (pg_cells *out, const choice *w)
 {
     pg_status status = PG_OK;

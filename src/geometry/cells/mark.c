@@ -244,7 +244,7 @@ int pg_marks_boundary (pg_marks *m, const char *name)
     return 1;
 }
 
-/* ---- tests --------------------------------------------------------------------------------------------- */
+/* ---- conditions on positions --------------------------------------------------------------------------- */
 /* A point in the middle plane itself, to rounding, belongs to neither half. */
 int pg_marks_beyond (const pg_marks *m, int side, const double *x)
 {

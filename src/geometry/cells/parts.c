@@ -16,7 +16,7 @@ static int is_round (const pg_shape *s)
     return s->kind == PG_DISK || s->kind == PG_SPHERE || s->kind == PG_CYLINDER;
 }
 
-/* ---- names --------------------------------------------------------------------------------------------- */
+/* ---- names of parts ------------------------------------------------------------------------------------ */
 /* Number of the side called `part` among first .. 2 dim - 1, -1: none. */
 static int side_named (const char *part, int first, int dim)
 {

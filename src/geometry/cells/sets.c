@@ -143,7 +143,7 @@ done:
     return status;
 }
 
-/* ---- conditions ---------------------------------------------------------------------------------------- */
+/* ---- conditions of a set ------------------------------------------------------------------------------- */
 /* Angle in [0, 2 pi), counter-clockwise from the x axis. */
 static double angle_of (double y, double x)
 {
@@ -200,7 +200,7 @@ done:
     return status;
 }
 
-/* Ranges that are no pairs are passed over here; keep_angles reports them. */
+/* Ranges that are no pairs are skipped here; keep_angles reports them. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -378,7 +378,7 @@ static int mark_boundaries (builder *b, const char *name)
     return known;
 }
 
-/* ---- sets of the scene --------------------------------------------------------------------------------- */
+/* ---- sets of the input file ---------------------------------------------------------------------------- */
 /* Is any of n marks set? */
 static int marked (const unsigned char *mark, size_t n) { return n > 0 && memchr (mark, 1, n) != NULL; }
 

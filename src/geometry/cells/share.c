@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The most points at equal distance from one position that are found. */
+/* Largest number of points at equal distance from one position that are found. */
 enum { MOST = 16 };
 /* The points found so far. */
 typedef struct { int point[MOST]; size_t n; } found;
@@ -19,8 +19,8 @@ static int is_found (void *context, const double *place, size_t point)
     return 0;
 }
 
-/* All points as near to `place` as the nearest, to a millionth of the spacing: with ties decided by number,
- * mirror images of a body would have volumes that are no mirror images. */
+/* Finds all points as near to `place` as the nearest, to a millionth of the spacing: if ties were decided by
+ * number, mirrored bodies would not have mirrored volumes. */
 static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nearest, const double *place)
 {
     double first = 0;

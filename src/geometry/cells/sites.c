@@ -12,7 +12,7 @@ static size_t site_at (const cells_sites *s, const int *i)
     return ((size_t) i[2] * (size_t) s->size[1] + (size_t) i[1]) * (size_t) s->size[0] + (size_t) i[0];
 }
 
-/* Each kept cell counts at its 2^dim vertices, or once at its centre. */
+/* Counts the kept cells around each site: a cell counts at its 2^dim vertices, or once at its centre. */
 static void count (cells_sites *s)
 {
     const pg_lattice *l = s->l;

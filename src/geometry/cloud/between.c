@@ -45,10 +45,10 @@ static const double AWAY = -0.02, SMOOTH = 0.5, LONG = 0.5;
 static const double REACH = 2, WITHIN = 1e-6, INWARD = 1e-5;
 /* Distance from a point on the surface at which the body is tested beside it, in units of `near`. */
 static const double BESIDE = 16;
-/* Lengths and angles that differ less than this, relatively, differ by rounding. */
+/* Lengths and cosines that differ by less than this, relatively, differ by rounding only. */
 static const double EQUAL = 1e-9;
 
-/* ---- one way ------------------------------------------------------------------------------------------- */
+/* ---- gaps along a segment ------------------------------------------------------------------------------ */
 /* Drops the gaps of an alpha shape that its rim fills: those all of which lies within the rim's width of the
  * skin. */
 static void fill_rim (between_gaps *g, const pg_shape *s, const between_way *w)
@@ -224,7 +224,7 @@ int pg_between_outside (const pg_between *b, const double *x, const double *y, d
     return g.full ? -1 : 0;
 }
 
-/* ---- what can be met in a box -------------------------------------------------------------------------- */
+/* ---- members that a segment in a box can meet ---------------------------------------------------------- */
 /* Does this convex shape hold the whole box? */
 static int holds (const pg_between *b, const member *m, const double *low, const double *high)
 {
@@ -254,7 +254,7 @@ int pg_between_look (const pg_between *b, const double *low, const double *high,
     return !m->convex;
 }
 
-/* ---- where places look from ---------------------------------------------------------------------------- */
+/* ---- the eyes of points -------------------------------------------------------------------------------- */
 /* Direction c of those along the axes and the diagonals, a unit vector. */
 static void direction (int dim, int c, double *d)
 {
@@ -429,7 +429,7 @@ done:
     return status;
 }
 
-/* ---- making it ----------------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------------------ */
 static pg_status add_shapes (pg_between *b, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -501,7 +501,7 @@ void pg_between_free (pg_between **between)
     *between = NULL;
 }
 
-/* ---- families ------------------------------------------------------------------------------------------ */
+/* ---- removing separated points from families ----------------------------------------------------------- */
 typedef struct {
     const pg_between *b;
     pg_family *f;

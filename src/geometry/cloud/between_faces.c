@@ -23,7 +23,7 @@ struct between_faces {
     size_t start[LEVELS + 1];
 };
 
-/* ---- pieces -------------------------------------------------------------------------------------------- */
+/* ---- adding pieces ------------------------------------------------------------------------------------- */
 static pg_status add_piece (between_faces *f, const double *const *corner)
 {
     pg_status status = PG_OK;
@@ -89,7 +89,7 @@ done:
     return status;
 }
 
-/* ---- faces that nothing lies in front of --------------------------------------------------------------- */
+/* ---- dropping faces that have the surface behind them -------------------------------------------------- */
 /* For each face normal met so far: the largest n.x over the nodes of the surface, m. */
 typedef struct { int n; double normal[DIRECTIONS][3], reach[DIRECTIONS]; } directions;
 
@@ -130,7 +130,7 @@ static void drop_outer (between_faces *f, const pg_mesh *mesh, const unsigned ch
     f->n = kept;
 }
 
-/* ---- the tree ------------------------------------------------------------------------------------------ */
+/* ---- the tree of boxes --------------------------------------------------------------------------------- */
 static pg_status sort_pieces (between_faces *f)
 {
     pg_status status = PG_OK;
@@ -220,7 +220,7 @@ void between_faces_free (between_faces **faces)
     *faces = NULL;
 }
 
-/* ---- questions ----------------------------------------------------------------------------------------- */
+/* ---- queries ------------------------------------------------------------------------------------------- */
 typedef int (*visit) (void *context, const between_faces *f, size_t piece);
 
 /* Calls `one` with all pieces whose boxes meet the box, until it returns 1. */

@@ -217,7 +217,7 @@ void pg_family_search_free (pg_family_search **search)
     *search = NULL;
 }
 
-/* ---- reading off --------------------------------------------------------------------------------------- */
+/* ---- finding the families ------------------------------------------------------------------------------ */
 /* A block of members of consecutive families; the blocks of a thread form a chain. */
 typedef struct piece { struct piece *next; size_t n, room; int member[]; } piece;
 

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- who belongs to a family --------------------------------------------------------------------------- */
+/* ---- members of a family ------------------------------------------------------------------------------- */
 /* State of one pass over all points. */
 typedef struct {
     /* Tree of the centres. */

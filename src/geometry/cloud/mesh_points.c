@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Supports are at most so many times as long as wide. */
+/* Largest ratio of the length of a support to its width. */
 #define PG_STRETCH_MOST 16.0
 
 /* The element of the same shape that has corners only. */
@@ -241,7 +241,7 @@ done:
     return status;
 }
 
-/* ---- the cloud ----------------------------------------------------------------------------------------- */
+/* ---- building the cloud -------------------------------------------------------------------------------- */
 /* Moves the points inside the body by random parts of their spacing; the elements stay. */
 static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uint64_t seed)
 {

@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* ---- sites --------------------------------------------------------------------------------------------- */
+/* ---- sites of the lattice ------------------------------------------------------------------------------ */
 /* Adds one to all sites around a cell: its vertices (first = 0), or the cell and its neighbours (first =
  * -1). */
 static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
@@ -53,7 +53,7 @@ done:
     return status;
 }
 
-/* ---- the cloud ----------------------------------------------------------------------------------------- */
+/* ---- building the cloud -------------------------------------------------------------------------------- */
 /* Writes positions and volumes. Only sites with kept cells all around are shifted (perturb), so that the
  * boundary stays; the shift follows from their number in the whole lattice. */
 static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s, double amount, uint64_t seed)

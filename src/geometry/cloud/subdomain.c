@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The subdomain of a rank on a lattice. Cells are divided into one box a rank (pg_boxes_divide); a rank owns
  * the vertices at the low corners of its cells (and those at the end of the lattice), or the centres of its
- * cells, and holds ghosts as wide as the horizon of the method. Sites at the rim of what it holds, around
+ * cells, and holds ghosts in a layer as wide as the method needs. Sites at the rim of what it holds, around
  * which cells are missing, are points too, but too far away to matter, and are never updated. As boxes are
  * known on all ranks, every rank finds by itself what each of the others needs from it, without messages. */
 #include "subdomain.h"
@@ -122,7 +122,7 @@ pg_box pg_subdomain_cells (const pg_subdomain *d, const pg_lattice *l, double wi
     return out;
 }
 
-/* ---- sites --------------------------------------------------------------------------------------------- */
+/* ---- sites of the lattice ------------------------------------------------------------------------------ */
 /* Indices of a site in the whole lattice. */
 static void place_of (const sites *s, const pg_lattice *l, size_t i, int *at)
 {
@@ -142,7 +142,7 @@ int64_t cloud_site_number (const sites *s, const pg_lattice *l, size_t i)
     return ((int64_t) at[2] * sites_along (l, 1, centred) + at[1]) * sites_along (l, 0, centred) + at[0];
 }
 
-/* ---- the halo ------------------------------------------------------------------------------------------ */
+/* ---- exchange of ghosts (halo) ------------------------------------------------------------------------- */
 /* The sites of two boxes in common; 0: none. */
 static int common (pg_box *out, const pg_box *a, const pg_box *b)
 {

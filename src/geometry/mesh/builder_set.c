@@ -37,7 +37,7 @@ typedef struct {
     pairs   nodes, sides;
 } builder;
 
-/* Most sets, so that the number of a set fits into its bits of a pair. */
+/* Largest number of sets, so that the number of a set fits into its bits of a pair. */
 enum { MOST_SETS = 1 << 28 };
 
 /* Appends a member; repetitions are removed after sorting. */
@@ -68,7 +68,7 @@ done:
     return status;
 }
 
-/* ---- names --------------------------------------------------------------------------------------------- */
+/* ---- names of sets ------------------------------------------------------------------------------------- */
 /* Appends a set. */
 static pg_status add_name (builder *b, const char *name, long id, int sides)
 {
@@ -411,7 +411,7 @@ done:
     return status;
 }
 
-/* ---- sorted, into the mesh ----------------------------------------------------------------------------- */
+/* ---- writing sorted sets into the mesh ----------------------------------------------------------------- */
 static int by_pair (const void *p, const void *q)
 {
     uint64_t a = *(const uint64_t *) p, b = *(const uint64_t *) q;

@@ -27,7 +27,7 @@ static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 
         PG_FAIL (PG_E_FILE, "%s (%s): %s", at_, pg_element_types[(m)->kind[e]].name, why_); \
     } while (0)
 
-/* ---- numbers to places --------------------------------------------------------------------------------- */
+/* ---- from numbers of the file to indices --------------------------------------------------------------- */
 /* Looks up the nodes of all elements. A solid element may name no node twice: a collapsed hexahedron would
  * have a singular map. */
 static pg_status find_nodes (pg_mesh_builder *m)
@@ -299,8 +299,8 @@ done:
     return status;
 }
 
-/* Makes the solid elements. Orientation needs the nodes in place; blocks come last because they need no more
- * than the elements. */
+/* Makes the solid elements. Their orientation needs the nodes first; blocks come last because they need no
+ * more than the elements. */
 pg_status builder_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;

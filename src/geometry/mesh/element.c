@@ -101,7 +101,7 @@ static pg_element face_kind (pg_element kind, int f)
     }
 }
 
-/* The tables list the nodes in the order of the face's own element. */
+/* The nodes of face f are listed in the order of the face's own element. */
 pg_element pg_element_face (pg_element kind, int f, int node[9])
 {
     pg_element face = face_kind (kind, f);

@@ -83,7 +83,7 @@ double pg_element_map_by (pg_element kind, int dim, const double *x, const doubl
     return size;
 }
 
-/* ---- inverse ------------------------------------------------------------------------------------------- */
+/* ---- inverse of the map -------------------------------------------------------------------------------- */
 /* step = J^-1 r (d x d) by Cramer's rule; 0 where J is singular. */
 static int solve (int d, double J[3][3], const double r[3], double step[3])
 {

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Most elements in a leaf; depth of the stack of a search. */
+/* Largest number of elements in a leaf; size of the stack of a search. */
 enum { LEAF = 4, DEPTH = 64 };
 /* A position this far outside the reference element (xi) still counts as inside: rounding must leave no gaps
  * between neighbours. */
@@ -259,7 +259,7 @@ static int invert (pg_element kind, int dim, const double *x, const double *plac
                                               : pg_element_invert (kind, x, place, xi);
 }
 
-/* ---- questions ----------------------------------------------------------------------------------------- */
+/* ---- queries ------------------------------------------------------------------------------------------- */
 /* Returns the element with the lowest number that holds the position, -1: none. */
 static long find_inside (const pg_mesh_locator *f, const double *place, double *xi)
 {
@@ -322,7 +322,7 @@ static void consider (const pg_mesh_locator *f, const double *place, int k, near
     pg_element kind = nodes_of (f, e, x);
     double d = closest_in_element (kind, f->dim, x, place, xi);
     box_of (f, e, &size);
-    /* Too far away for this element, or farther than the best. */
+    /* The element is farther away than its own size, or than the best so far. */
     if ((d > size && !best->far) || d > best->d * (1 + 1e-9)) return;
     if (best->element >= 0 && d >= best->d * (1 - 1e-9) && (long) e > best->element) return;
     best->element = (long) e, best->d = d, best->away = d / size;

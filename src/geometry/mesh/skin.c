@@ -119,7 +119,7 @@ void pg_skin_box (const pg_mesh_skin *skin, double *low, double *high)
     }
     for (int a = 0; a < f->dim; a++) size = fmax (size, high[a] - low[a]);
     for (int a = 0; a < f->dim; a++) {
-        /* A curved face counts only where it really passes beyond the nodes. */
+        /* A curved face widens the box only where it extends beyond the nodes by more than rounding. */
         if (lowest[a] < low[a] - 1e-9 * size) low[a] = lowest[a];
         if (highest[a] > high[a] + 1e-9 * size) high[a] = highest[a];
     }

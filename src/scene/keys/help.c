@@ -181,7 +181,7 @@ pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the help could not be written") : PG_OK;
 }
 
-/* ---- of the keys of all folders ------------------------------------------------------------------------ */
+/* ---- help for the keys of all folders ------------------------------------------------------------------ */
 /* Writes help, manual or JSON schema; key: for help alone. */
 static pg_status write_all (FILE *to, const char *key, pg_status (*write) (FILE *, const pg_schema *))
 {

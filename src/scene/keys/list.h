@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One line per folder that brings keys of the scene (const pg_key_table pg_keys_<folder>, in
- * src/<folder>/keys.c; those of the section `reference`, which `compare` reads,
- * in reference.c), and one per folder whose catalogue entries bring keys of their own (const
- * pg_key_catalogue pg_entry_keys_<folder>). */
+ * One line per folder that adds keys of the input file (const pg_key_table pg_keys_<folder>, in
+ * src/<folder>/keys.c; those of the section `reference` in reference.c), and one per folder whose catalogue
+ * entries add keys of their own (const pg_key_catalogue pg_entry_keys_<folder>). */
 PG_KEYS (scene)
 PG_KEYS (material)
 PG_ENTRY_KEYS (material)

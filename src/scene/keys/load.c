@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Most bytes of a scene file. */
+/* Largest number of bytes of a scene file. */
 enum { LARGEST = 1 << 28 };
 
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,

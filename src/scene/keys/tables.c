@@ -11,8 +11,9 @@
 #undef PG_KEYS
 #undef PG_ENTRY_KEYS
 
-/* Most tables, catalogues and copied rows; lengths of the texts of copied rows. A limit that is too small is
- * an error of the program, reported whenever a scene is read: raise the number that the message names. */
+/* Largest numbers of tables, catalogues and copied rows; room for the texts of copied rows, in bytes. A limit
+ * that is too small is an error of the program, reported whenever a scene is read: raise the one that the
+ * message names. */
 enum { MOST_TABLES = 96, MOST_CATALOGUES = 16, MOST_TWINS = 64, TWIN_PATH = 96, TWIN_DOC = 160 };
 
 /* All tables: filled once, on the first request, and constant from then on. twin: copies of rows for the

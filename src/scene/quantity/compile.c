@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Most characters of an expression. */
+/* Largest number of characters of an expression. */
 enum { LONGEST = 100000 };
 
 /* A rule of the grammar: reads its part of the text and describes it as an operand. */
@@ -37,7 +37,7 @@ done:
     return status;
 }
 
-/* ---- signs, from tight to loose ------------------------------------------------------------------------ */
+/* ---- operators, from the tightest to the loosest ------------------------------------------------------- */
 /* Reads a ^ b; ^ binds to the right, as b may begin with a sign and hold a power of its own. */
 static pg_status read_power (pg_reader *p, pg_operand *o)
 {
@@ -196,7 +196,7 @@ static pg_status read_and (pg_reader *p, pg_operand *o)
 }
 pg_status pg_read_or (pg_reader *p, pg_operand *o) { return read_joined (p, o, "or", PG_OP_OR, read_and); }
 
-/* ---- the whole ----------------------------------------------------------------------------------------- */
+/* ---- the whole expression ------------------------------------------------------------------------------ */
 /* Has the result the unit that is wanted? A number without unit fits any. */
 static pg_status check_result (pg_reader *p, const pg_operand *o, const char *unit)
 {

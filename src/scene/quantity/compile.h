@@ -6,7 +6,7 @@
 #include "expression.h"
 #include "unit.h"
 
-/* Most levels of nesting; room for a word, in bytes. */
+/* Largest number of nested levels; room for a word, in bytes. */
 enum { PG_DEEPEST_NESTING = 60, PG_WORD = 40 };
 
 /* A part of an expression. */
@@ -42,7 +42,7 @@ pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
 #define PG_BAD(position, ...) do { status = pg_read_fault (p, (position), __VA_ARGS__); goto done; } while (0)
 /* Skips blanks. */
 void   pg_read_skip (pg_reader *p);
-/* 1: the symbol was next and has been passed. */
+/* Skips the symbol if it is next in the text; returns 1 then. */
 int    pg_read_take (pg_reader *p, const char *symbol);
 int    pg_read_is_letter (char c);
 /* Length of the word that begins at s; is the word of n bytes at s equal to `word`? */

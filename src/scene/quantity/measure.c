@@ -59,7 +59,7 @@ static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
 /* Visitors, which udunits2 calls for each kind of unit in the tree of a unit. */
 static ut_status visit_basic (const ut_unit *unit, void *p) { return add_basic (unit, 1, p); }
 
-/* A product of powers of base units. */
+/* Visits a product: adds the powers of its base units. */
 static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const *basic, const int *power,
                                 void *p)
 {
@@ -99,7 +99,7 @@ static ut_status visit_log (const ut_unit *unit, double base, const ut_unit *ref
 
 static ut_visitor visitor = { visit_basic, visit_product, visit_galilean, visit_time, visit_log };
 
-/* ---- text ---------------------------------------------------------------------------------------------- */
+/* ---- text of a unit ------------------------------------------------------------------------------------ */
 /* Is c part of the name of a unit, in UTF-8? */
 static int is_letter (char c)
 {

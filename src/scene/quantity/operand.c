@@ -4,7 +4,7 @@
  * expression is evaluated. */
 #include "compile.h"
 
-/* ---- code ---------------------------------------------------------------------------------------------- */
+/* ---- appending code ------------------------------------------------------------------------------------ */
 /* Constants and variables push a value, operations of two numbers remove one. */
 pg_status pg_operand_emit (pg_reader *p, pg_op op, double value)
 {
@@ -39,7 +39,7 @@ pg_status pg_operand_combine (pg_reader *p, pg_op op, pg_operand *a, const pg_op
     return PG_OK;
 }
 
-/* ---- dimensions ---------------------------------------------------------------------------------------- */
+/* ---- dimensions of operands ---------------------------------------------------------------------------- */
 int pg_operand_plain (const pg_operand *o) { return o->bare || pg_measure_plain (&o->m); }
 
 pg_status pg_operand_number (pg_reader *p, const pg_operand *o, size_t at)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most characters of a number. */
+/* Largest number of characters of a number. */
 enum { LONGEST_NUMBER = 400 };
 
 /* Return the text after digits, and after blanks. */
@@ -103,8 +103,8 @@ void pg_quantity_describe (char *out, size_t n, const char *unit)
         snprintf (out, n, "a number with a unit of %s, for example %s", unit_words (unit), example_of (unit));
 }
 
-/* Converts a value with the unit `word` (n bytes) into `unit`. Angles are told from plain numbers: 5 % is
- * no angle. */
+/* Converts a value with the unit `word` (n bytes) into `unit`. Angles and plain numbers are distinguished: 5
+ * % is no angle. */
 static pg_status convert (double *out, double value, const char *word, size_t n, const char *unit)
 {
     pg_measure given, wanted;

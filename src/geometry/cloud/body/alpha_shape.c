@@ -39,7 +39,7 @@ typedef struct {
     double *region_volume;
 } work;
 
-/* ---- different points ---------------------------------------------------------------------------------- */
+/* ---- removing repeated points -------------------------------------------------------------------------- */
 /* A rounded position and the number of its point. */
 typedef struct { double x[3]; size_t i; } place;
 
@@ -81,7 +81,8 @@ done:
     return status;
 }
 
-/* Computes the distance of every point from its nearest neighbour (apart, m). */
+/* Arguments of measure_apart, which computes the distance of every point from its nearest neighbour (apart,
+ * m). */
 typedef struct { const pg_tree *tree; const double *x; double *apart; size_t self; } neighbours;
 
 static int is_self (void *context, const double *at, size_t item)
@@ -104,7 +105,7 @@ static void measure_apart (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* ---- what belongs to the shape ------------------------------------------------------------------------- */
+/* ---- choice of simplices ------------------------------------------------------------------------------- */
 /* The triple product of three edges. */
 static double triple (double e[3][3])
 {

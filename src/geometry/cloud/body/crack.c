@@ -63,7 +63,7 @@ double pg_segment_nearest (const double *a, const double *b, const double *x, do
     return s;
 }
 
-/* ---- in the line or plane of the crack ----------------------------------------------------------------- */
+/* ---- within the line or plane of the crack ------------------------------------------------------------- */
 /* Along the line of the crack: does the interval of a b overlap that of the crack without its retreats? */
 static int meets_segment (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
@@ -202,7 +202,7 @@ static int meets_polygon (const pg_crack *c, const double *a, const double *b, d
     return 0;
 }
 
-/* ---- an outline ---------------------------------------------------------------------------------------- */
+/* ---- outlines of slots --------------------------------------------------------------------------------- */
 /* Does the bond x y pass through the inside of a 2D outline? The edges divide it; a part whose middle lies
  * deeper inside than the tolerance passes. Edges that it crosses are found one at a time, in order: the next
  * crossing behind s. */
@@ -227,7 +227,7 @@ static int passes_outline (const pg_crack *c, const double *x, const double *y, 
     return 0;
 }
 
-/* ---- the bond ------------------------------------------------------------------------------------------ */
+/* ---- does a crack cut a bond? -------------------------------------------------------------------------- */
 /* One function for each kind of crack. */
 static int (*const meets[]) (const pg_crack *, const double *, const double *, double) = {
     [PG_CRACK_SEGMENT] = meets_segment, [PG_CRACK_POLYGON] = meets_polygon, [PG_CRACK_DISC] = meets_disc,

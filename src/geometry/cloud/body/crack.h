@@ -8,7 +8,7 @@
 /* Number of vertices of the polygon by which a disc is drawn, and of the polygon that replaces an ellipse. */
 enum { CRACK_CORNERS = 64 };
 
-/* ---- kinds (crack_kinds.c) ----------------------------------------------------------------------------- */
+/* ---- kinds of cracks (crack_kinds.c) ------------------------------------------------------------------- */
 /* Each function here fills an empty crack. *why: what is wrong with it, in words that follow "the crack";
  * NULL: nothing. */
 pg_status crack_segment (pg_crack *c, const double *from, const double *to, const char **why);
@@ -27,7 +27,7 @@ pg_status crack_slot_ellipse (pg_crack *c, const double *centre, double length, 
 /* Two unit vectors e and f in the plane normal to the unit vector n. */
 void      crack_plane (const double *n, double *e, double *f);
 
-/* ---- the list while it grows (crack_read.c) ------------------------------------------------------------ */
+/* ---- list of cracks under construction (crack_read.c) -------------------------------------------------- */
 typedef struct {
     const pg_scene *scene;
     /* The body without slots, but with layers; its n is 0 if points or a mesh are given instead of shapes. */
@@ -51,7 +51,7 @@ pg_status crack_read_random (crack_list *list);
  * not given by shapes. */
 pg_status crack_body_measure (double *out, const pg_body *body);
 
-/* ---- places (crack_meet.c) ----------------------------------------------------------------------------- */
+/* ---- does a crack meet the body? (crack_meet.c) -------------------------------------------------------- */
 /* 0: the crack certainly does not meet the body. */
 int       crack_may_meet (const pg_body *body, const pg_crack *c);
 

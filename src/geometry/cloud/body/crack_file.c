@@ -19,7 +19,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Most columns of a table; most characters of a line. */
+/* Largest number of columns of a table, and of characters of a line. */
 enum { MOST = 16, LINE = 1024 };
 /* Roles: the quantities that a column can hold. */
 enum { X1, Y1, X2, Y2, X, Y, Z, NX, NY, NZ, RADIUS, POLYLINE, POLYGON, WIDTH, ROLES };
@@ -45,7 +45,8 @@ typedef struct {
     crack_list *list;
     const char *name;
     size_t line;
-    /* Role of each column (n of them; 0: not known yet) and its scale. */
+    /* Role of each column, their number n (0: not known yet), and the kind of table; factor of each column to
+     * SI units. */
     int    role[MOST], n, table;
     double scale[MOST];
     /* The vertices of the polygon or polyline so far: its number, its width, its first line. */
@@ -131,7 +132,7 @@ static pg_status settle_columns (reader *r, int n)
     return settle_table (r);
 }
 
-/* ---- rows -----------------------------------------------------------------------------------------------
+/* ---- rows of the table ----------------------------------------------------------------------------------
  */
 /* Makes a crack of the vertices read so far. */
 static pg_status end_vertices (reader *r)
@@ -260,7 +261,7 @@ done:
     return status;
 }
 
-/* ---- writing --------------------------------------------------------------------------------------------
+/* ---- writing tables -------------------------------------------------------------------------------------
  */
 /* Returns the kind of table that holds this crack. */
 static int table_of (const pg_crack *c, int dim)

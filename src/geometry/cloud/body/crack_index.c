@@ -13,7 +13,7 @@
 
 enum { LEVELS = 22 };                                  /* 8^22 cracks are more than there can be */
 
-/* ---- boxes --------------------------------------------------------------------------------------------- */
+/* ---- boxes of cracks ----------------------------------------------------------------------------------- */
 /* Box of a segment, lengthened by negative retreats, beyond its ends, m. */
 static void box_of_segment (const pg_crack *c, double *low, double *high)
 {
@@ -66,7 +66,7 @@ static int overlap (int dim, const double *a, const double *b)
     return 1;
 }
 
-/* ---- the order ----------------------------------------------------------------------------------------- */
+/* ---- sorting the cracks -------------------------------------------------------------------------------- */
 void pg_cracks_clear_index (pg_cracks *c)
 {
     pg_free (c->box), pg_free (c->block), pg_free (c->order);
@@ -166,7 +166,7 @@ done:
     return status;
 }
 
-/* ---- questions ----------------------------------------------------------------------------------------- */
+/* ---- queries ------------------------------------------------------------------------------------------- */
 /* A test of one crack against a bond x - y, or with y = x a point. NULL: only whether the boxes meet. */
 typedef int (*question) (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
 typedef struct {

@@ -46,7 +46,8 @@ static double part_inside (const pg_crack *c, const pg_body *body)
             }
         return in / all;
     }
-    /* a fan of triangles about the first corner, each with the same number of places, weighted by its area */
+    /* a fan of triangles about the first corner, each with the same number of positions, weighted by its
+     * area */
     for (size_t i = 1; i + 1 < c->nvertex; i++) {
         double u[3], w[3], area = 0;
         for (int k = 0; k < 3; k++) u[k] = v[3*i + (size_t) k] - v[k], w[k] = v[3*i + 3 + (size_t) k] - v[k];

@@ -34,7 +34,7 @@ typedef struct {
     long    tries;
 } network;
 
-/* ---- numbers --------------------------------------------------------------------------------------------
+/* ---- random numbers -------------------------------------------------------------------------------------
  */
 /* Draws one value, which may lie beyond the limits. */
 static double draw_once (const crack_distribution *d, random_source *r)
@@ -65,7 +65,7 @@ double crack_draw (const crack_distribution *d, random_source *r)
     return NAN;
 }
 
-/* ---- a crack --------------------------------------------------------------------------------------------
+/* ---- drawing a crack ------------------------------------------------------------------------------------
  */
 /* A crack centred at the origin, m: in 2D half of its vector; in 3D its unit normal and two half vectors at
  * right angles. */
@@ -125,7 +125,7 @@ static pg_status place (pg_crack *c, const network *w, const model *m, const dou
     return crack_polygon (c, 4, v, &why);
 }
 
-/* ---- does it fit? ---------------------------------------------------------------------------------------
+/* ---- does a crack fit? ----------------------------------------------------------------------------------
  */
 /* Does the piece at + i half + j other, i in [i0, i1], j in [j0, j1], lie in the body, `deep` m below the
  * surface? By balls around it and subdivision; at the greatest depth its middle decides. */

@@ -16,7 +16,7 @@ typedef struct { int kind; double mean, deviation, low, high, exponent, concentr
 /* Shapes of cracks in 3D. */
 enum { CRACK_DISC, CRACK_RECTANGLE, CRACK_ELLIPSE };
 
-/* What the input file asks of one random network. */
+/* The request of the input file for one random network. */
 typedef struct {
     uint32_t seed;
     /* Number of cracks; or fraction of the body that their slots take; or intensity: their length (3D: area)
@@ -41,7 +41,7 @@ typedef struct {
     /* Width of the slots, m; 0: sharp. */
     double width;
 } crack_request;
-/* The most cracks of all networks of an input file together. */
+/* Largest number of cracks of all networks of an input file together. */
 enum { CRACK_MOST = 20000 };
 pg_status crack_request_read (crack_request *out, const crack_list *list);
 /* Draws a number from the distribution; for an angle of von Mises' distribution its direction is drawn

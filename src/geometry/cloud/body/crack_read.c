@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- the list -------------------------------------------------------------------------------------------
+/* ---- the list of cracks ---------------------------------------------------------------------------------
  */
 pg_crack *crack_next (crack_list *list)
 {
@@ -28,7 +28,7 @@ static pg_status settle (crack_list *list, pg_status status, const char *what, c
     return status;
 }
 
-/* ---- kinds ----------------------------------------------------------------------------------------------
+/* ---- reading each kind of crack -------------------------------------------------------------------------
  */
 /* Reads a segment from its ends, `from` and `to`. */
 static pg_status read_segment (crack_list *list)
@@ -158,7 +158,7 @@ static pg_status read_ellipse (crack_list *list)
     return settle (list, status, "the ellipse: its", why);
 }
 
-/* ---- an entry -------------------------------------------------------------------------------------------
+/* ---- an entry of the list -------------------------------------------------------------------------------
  */
 /* The keys that give a crack: in which dimensions, whether it can have a width there (bit 2, bit 3). */
 static const struct { const char *key; int lowest, highest, wide; pg_status (*read) (crack_list *);

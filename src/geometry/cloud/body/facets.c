@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most pieces along an edge of a curved face. */
+/* Largest number of pieces along an edge of a curved face. */
 enum { MOST = 16 };
 /* The pieces under construction. */
 typedef struct {
@@ -26,7 +26,7 @@ typedef struct {
     size_t room_x, room_id, room_face;
     /* The next number for a corner that is no node. */
     long   next;
-    /* Corners this far off a plane lie in it, m. */
+    /* Corners at most this far off a plane count as lying in it, m. */
     double tolerance;
     /* For each face: its side sets, as one number (find_sets). */
     unsigned long long *sets;
@@ -41,7 +41,7 @@ void facets_clear (pg_facets *f)
     memset (f, 0, sizeof *f);
 }
 
-/* ---- pieces -------------------------------------------------------------------------------------------- */
+/* ---- adding pieces ------------------------------------------------------------------------------------- */
 /* Normal of a piece times its size (2D: length, 3D: twice the area). */
 static double normal_of (int dim, const double *x, double *n)
 {
@@ -84,7 +84,7 @@ done:
     return status;
 }
 
-/* ---- faces --------------------------------------------------------------------------------------------- */
+/* ---- pieces of faces ----------------------------------------------------------------------------------- */
 /* Are the edges and the inside of a face of second order straight, middle nodes in the middle to 1e-9? */
 static int is_straight (pg_element kind, int dim, const double *x)
 {
@@ -258,7 +258,7 @@ done:
     return status;
 }
 
-/* ---- regions ------------------------------------------------------------------------------------------- */
+/* ---- plane regions ------------------------------------------------------------------------------------- */
 /* An edge of a piece: the numbers of its two ends (2D: one end), smaller first; piece and corner. */
 typedef struct { long a, b;  int piece, at; } edge;
 
@@ -452,7 +452,7 @@ done:
     return status;
 }
 
-/* ---- create -------------------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------------------ */
 /* The tolerance of planes: 1e-11 of the size of the mesh, and the rounding of its coordinates. */
 static double tolerance_of (const pg_lattice *l)
 {

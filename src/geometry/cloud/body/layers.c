@@ -102,7 +102,7 @@ static double edge_of (const pg_body *body, const double *x, int axis, double to
     return inside;
 }
 
-/* The most cells tested along an axis. */
+/* Largest number of cells tested along an axis. */
 enum { MOST_LOOKS = 4096 };
 
 /* Shrinks the box of a layer to the part of the face below which, half a cell deep, the body lies: from the

@@ -20,7 +20,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Most columns of a file. */
+/* Largest number of columns of a file. */
 enum { MOST_FIELDS = 16 };
 /* Roles: the quantities that a column can hold; X + k: coordinate k. */
 enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };
@@ -38,7 +38,7 @@ typedef struct {
     char   *text;
     /* Number of the current line, from 1. */
     size_t  line;
-    /* Number of columns of all lines; 0: not known yet. */
+    /* Number of columns, the same in all lines; 0: not known yet. */
     size_t  columns;
     /* Number of the column that holds each role, from 1; 0: there is none. */
     size_t  column[ROLES];
@@ -93,7 +93,7 @@ done:
     return status;
 }
 
-/* ---- a line -------------------------------------------------------------------------------------------- */
+/* ---- fields of a line ---------------------------------------------------------------------------------- */
 /* Reads a finite number; 0: the text is none, or something follows it. */
 static int number (const char *text, double *value)
 {

@@ -99,7 +99,7 @@ const pg_alpha_shape *pg_shape_alpha (const pg_shape *s)
     return s->kind == PG_ALPHA_SHAPE ? &s->solid->cloud : NULL;
 }
 
-/* ---- questions ----------------------------------------------------------------------------------------- */
+/* ---- queries ------------------------------------------------------------------------------------------- */
 /* Outside of the simplices the distance is exact. Inside it is minus the radius of a ball that lies in the
  * shape; the surface may be farther away where two rims meet. The search for the nearest face goes no further
  * than `reach` needs. */

@@ -99,7 +99,7 @@ int pg_shape_face_on_side (const pg_shape *s, int element, int at, const char *s
     return 0;
 }
 
-/* ---- stairs -------------------------------------------------------------------------------------------- */
+/* ---- staircases on a lattice --------------------------------------------------------------------------- */
 /* Computes the signs at the centres of all cells once: later tests take constant time. */
 pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice)
 {

@@ -6,8 +6,8 @@
 
 #define INLINE static inline __attribute__ ((always_inline))
 
-/* The most boxes: so many for each point, and a number that is always allowed. A cloud without empty space
- * has about one box for each point. */
+/* Largest number of boxes: so many for each point, and a number that is always allowed. A cloud without empty
+ * space has about one box for each point. */
 enum { BOXES_A_POINT = 16, BOXES_AT_LEAST = 4096 };
 
 /* ---- sorting ------------------------------------------------------------------------------------------- */
@@ -82,7 +82,7 @@ void pg_boxes_clear (pg_boxes *b)
     memset (b, 0, sizeof *b);
 }
 
-/* ---- what a place sees --------------------------------------------------------------------------------- */
+/* ---- points near a position ---------------------------------------------------------------------------- */
 /* Distance along an axis between layer `at` of boxes and the interval low .. high, m; 0 where they meet.
  * Slightly reduced, as the borders of boxes are rounded. */
 static double gap (const pg_boxes *b, int axis, size_t at, double low, double high)

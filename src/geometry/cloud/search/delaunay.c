@@ -32,7 +32,7 @@ static pg_status load (void)
     return pg_library_load (&qhull);
 }
 
-/* ---- flat clouds --------------------------------------------------------------------------------------- */
+/* ---- points on a line or in a plane -------------------------------------------------------------------- */
 /* The largest distance of any point from the span of the origin x0 and `n` orthonormal directions; the
  * direction towards it, orthogonal to them, becomes direction n. */
 static double farthest (int dim, size_t npoint, const double *x, int n, double direction[3][3])

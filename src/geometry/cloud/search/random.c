@@ -132,7 +132,7 @@ void random_fisher (random_source *r, double concentration, double direction[3])
     direction[0] = across * c, direction[1] = across * s, direction[2] = h;
 }
 
-/* ---- shifts of places ---------------------------------------------------------------------------------- */
+/* ---- random shifts of points --------------------------------------------------------------------------- */
 /* A bijection that spreads every bit (the finaliser of splitmix64). */
 static uint64_t mix (uint64_t z)
 {

@@ -74,7 +74,7 @@ void pg_tree_clear (pg_tree *tree)
     memset (tree, 0, sizeof *tree);
 }
 
-/* ---- all points near a place --------------------------------------------------------------------------- */
+/* ---- all points near a position ------------------------------------------------------------------------ */
 /* State of a search for all points near a position. */
 typedef struct { const double *at; double reach; pg_tree_visit visit; void *context; } vicinity;
 
