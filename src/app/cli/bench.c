@@ -13,7 +13,7 @@ static const char basis_names[] = "linear|quadratic", cell_names[] = "cut|stairc
 static const char *bases (void) { return basis_names; }
 static const char *cell_kinds (void) { return cell_names; }
 
-/* A list option: where its words go, and the names that are allowed (NULL: any). */
+/* A list option: array of its words, and the names that are allowed (NULL: any). */
 typedef struct { const char *option; pg_word_list *words; const char *(*names) (void); } list_option;
 
 /* 1 if the word is in "a|b|c", as a whole word. */
@@ -57,8 +57,8 @@ done:
     return status;
 }
 
-/* Reads one option with its value: lists first, from a table, then the others. Options of
- * CalculiX switch it on. */
+/* Reads one option with its value: options with lists first, from a table, then the others. Options of
+ * CalculiX (--fem-...) switch it on. */
 static pg_status read_option (pg_bench_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;

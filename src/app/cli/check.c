@@ -6,7 +6,7 @@
 #include "app/cli/preparation/cli.h"
 #include <math.h>
 
-/* --echo: the scene as it was understood, for programs that change scenes. */
+/* Runs check --echo: prints the scene as it was understood, for programs that change scenes. */
 static int echo (const command *c)
 {
     pg_status status = PG_OK;
@@ -23,8 +23,8 @@ done:
     return pg_exit_code (status);
 }
 
-/* The start of the run, of bodies up to a size; an explicit or relaxing solver is made of any, because only
- * it knows its time step. */
+/* Creates the solver and does all that precedes its first step if the body has at most PLAN_MOST_TRIED
+ * points; an explicit or relaxing solver is created for any body, because only it knows its time step. */
 static pg_status try_start (preparation *r, plan *all, pg_statistics *warned)
 {
     pg_status status = PG_OK;
@@ -46,8 +46,8 @@ done:
     return status;
 }
 
-/* --solve and --spectrum come last, since they take the longest and everything else must be right for
- * them. */
+/* Checks a scene. --solve and --spectrum come last, since they take the longest and need everything else to
+ * be right. */
 int pg_cli_check (int argc, char **argv)
 {
     pg_status status = PG_OK;

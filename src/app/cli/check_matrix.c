@@ -5,7 +5,7 @@
 #include <errno.h>
 #include <string.h>
 
-/* DIR/NAME; PG_E_LIMIT: too long. */
+/* Joins folder and name to a path; PG_E_LIMIT: it is too long. */
 static pg_status join (char path[4096], const char *folder, const char *name)
 {
     pg_status status = PG_OK;
@@ -15,7 +15,7 @@ done:
     return status;
 }
 
-/* The points that the rows of N belong to. */
+/* Writes a table of the points, to which the rows of N belong: coordinates and volume. */
 static pg_status write_points (const pg_cloud *cloud, const char *path)
 {
     pg_status status = PG_OK;

@@ -7,20 +7,22 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What was found out. divided: the ranks share the body, else each of them has all of it. */
+/* Results of check --ranks. divided 1: the ranks share the body; 0: each of them has all of it. */
 typedef struct {
     const command *c;
-    pg_forecast whole, largest;                        /* of one process; of the rank that needs most */
-    double     *peak, total;                           /* bytes of each rank (c->ranks); points of the body */
+    pg_forecast whole, largest;                        /* of one process; of the rank with the largest peak */
+    /* peak bytes of each rank (c->ranks); points of the body */
+    double     *peak, total;
     pg_part_size *part;                                /* of each rank */
-    int         divided, components, rank;             /* numbers a point exchanges; the rank of `largest` */
-    const char *occasion;                              /* when ghosts are exchanged */
-    pg_statistics warned;                              /* of the built problem, as a run warns of it */
+    int         divided, components, rank;             /* values a point exchanges; rank of `largest` */
+    const char *occasion;                              /* when ghosts are exchanged: "a time step" ... */
+    pg_statistics warned;                              /* warnings of the built problem */
 } outlook;
 
 /* ---- finding out --------------------------------------------------------------------------------------- */
-/* All faults that a run on so many ranks would name, and what it would warn of. Where a part of the body
- * alone fits this machine, those that show only in the built problem are not looked for (*built 0). */
+/* Looks for all faults that a run on so many ranks would report, and for its warnings. If the whole body does
+ * not fit this machine the problem is not built, and faults that show only then are not looked for (*built
+ * 0). */
 static pg_status look_for_faults (outlook *o, const pg_scene *scene, int *built)
 {
     pg_status status = PG_OK;
@@ -40,7 +42,7 @@ done:
     return status;
 }
 
-/* Points of every rank where they share the body. */
+/* Finds the points, ghosts and messages of every rank where the ranks share the body. */
 static pg_status divide (outlook *o, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -56,7 +58,7 @@ done:
     return status;
 }
 
-/* Memory of every rank, and which needs most. */
+/* Forecasts the memory of every rank, and finds the rank that needs most. */
 static void foresee (outlook *o, const pg_scene *scene)
 {
     for (int r = 0; r < o->c->ranks; r++) o->total += o->part[r].owned;
@@ -87,7 +89,7 @@ static double ghosts_of (const pg_part_size *p) { return p->ghosts; }
 static double neighbours_of (const pg_part_size *p) { return p->neighbours; }
 static double sent_by (const pg_part_size *p) { return p->sent; }
 
-/* The parts, and what travels between them. */
+/* Prints sizes of the subdomains and of the messages between them. */
 static void print_parts (const outlook *o)
 {
     spread owned = spread_of (o, owned_by), ghosts = spread_of (o, ghosts_of),
@@ -165,7 +167,7 @@ done:
     return status;
 }
 
-/* 1: so many ranks would divide the body. */
+/* 1: c->ranks processes would share the body. */
 static int would_divide (const command *c, const pg_scene *scene)
 {
     pg_ranks all;
@@ -185,7 +187,7 @@ int check_ranks (const command *c)
     PG_ALLOC (o.part, (size_t) c->ranks);
     PG_ALLOC (o.peak, (size_t) c->ranks);
     PG_TRY (command_scene (c, &scene));
-    PG_TRY (command_scene (c, &counted));              /* its faults come out when the problem is built */
+    PG_TRY (command_scene (c, &counted));              /* faults are reported when the problem is built */
     if (pg_forecast_scene (&o.whole, counted, pg_force_methods ()) != PG_OK) o.whole.peak = 0;
     o.divided = would_divide (c, counted);
     PG_TRY (look_for_faults (&o, scene, &built));

@@ -19,7 +19,7 @@ static int complain (const char *format, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* Up to three lengths "1, -2 mm, 0", in m; a number without a unit is in m. */
+/* Reads up to three lengths "1, -2 mm, 0" into m; a number without a unit is in m. 0: text is not that. */
 static int read_shift (const char *text, double shift[3])
 {
     char part[64];
@@ -34,7 +34,7 @@ static int read_shift (const char *text, double shift[3])
     return 0;
 }
 
-/* A unit of length, in m: "mm" is read as "1 mm". Returns 0 for anything else. */
+/* Reads a unit of length into m: "mm" is read as "1 mm". Returns 0 for anything else. */
 static int read_unit (const char *text, double *unit)
 {
     char one[64];
@@ -42,7 +42,7 @@ static int read_unit (const char *text, double *unit)
     return pg_unit_parse (unit, one, "m") == PG_OK && *unit > 0;
 }
 
-/* "displacement", "displacement.x", "stress.xx" as a column of compare.h; returns 0 for other
+/* Turns "displacement", "displacement.x", "stress.xx" ... into a column of compare.h; returns 0 for other
  * names. */
 static int read_field (const char *text, int *column)
 {
@@ -57,7 +57,7 @@ static int read_field (const char *text, int *column)
     return *column >= 0;
 }
 
-/* A step, -1 for the last one. */
+/* Reads the number of a step, -1 for the last one; returns 0 for anything else. */
 static int read_step (const char *text, int *step)
 {
     char *end;
@@ -67,7 +67,7 @@ static int read_step (const char *text, int *step)
     return 1;
 }
 
-/* A finite number. */
+/* Reads a finite number; returns 0 for anything else. */
 static int read_number (const char *text, double *out)
 {
     char *end;
@@ -75,7 +75,7 @@ static int read_number (const char *text, double *out)
     return end != text && !*end && isfinite (*out);
 }
 
-/* A number of threads from 0 to 64; 0 means one for each processor. */
+/* Reads a number of threads from 0 to 64; 0 means one for each processor. Returns 0 for anything else. */
 static int read_threads (const char *text, int *out)
 {
     double threads = 0;
@@ -146,7 +146,7 @@ static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
     return -1;
 }
 
-/* The table for people: which step, how both sides were sampled, and the norms. */
+/* Prints the comparison as text: which step, how both sides were sampled, and the norms. */
 static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
 {
     char row[400];
@@ -172,8 +172,8 @@ done:
     return status;
 }
 
-/* The rows are printed before the files are written: they are there even if the disk is full.
- * With --json the file is printed instead. */
+/* Runs the command. The norms are printed before the files are written, so that they are seen even if the
+ * disk is full. With --json the file compare.json is printed instead. */
 int pg_cli_compare (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A number from low to high. */
+/* Reads a number from low to high. */
 static pg_status read_number (double *out, const char *name, const char *text, double low, double high)
 {
     pg_status status = PG_OK;
@@ -19,7 +19,7 @@ done:
     return status;
 }
 
-/* --horizon LIST, in spacings, 1 to 50; a study for each. */
+/* Reads --horizon LIST, in spacings, 1 to 50; each horizon gives a study of its own. */
 static pg_status read_horizons (pg_converge_request *q, const char *value)
 {
     pg_status status = PG_OK;
@@ -75,8 +75,8 @@ static const char *long_name (const char *word)
     return word;
 }
 
-/* Reads the command line; the defaults are four sizes, or three with a fixed horizon, whose
- * neighbours become ever more. */
+/* Reads the command line; the default is four spacings, or three with a fixed horizon, where the number of
+ * neighbours grows with every refinement. */
 static pg_status read_arguments (pg_converge_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -103,8 +103,8 @@ done:
     return status;
 }
 
-/* A wrong command line gets the usage as well; a wrong scene speaks for itself with file and
- * line. */
+/* Runs the command. After a wrong command line its usage is printed; the message about a wrong scene has file
+ * and line. */
 int pg_cli_converge (int argc, char **argv)
 {
     pg_status status = PG_OK;

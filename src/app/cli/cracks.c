@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal cracks: the cracks of a scene alone: what they amount to, a picture, and a table that a scene can
- * read again. Nothing is computed, so that a network can be looked at, and its seed chosen, in no time. */
+ * perigal cracks: the cracks of a scene alone: their statistics, a picture, and a table that a scene can read
+ * again. Nothing is computed, so that a network can be looked at, and its seed chosen, in no time. */
 #include "app/cli/preparation/cli.h"
 #include "perigal/picture.h"
 #include <math.h>
@@ -18,7 +18,7 @@ static const char *long_name (const char *word)
     return word;
 }
 
-/* An option with a value. */
+/* Reads an option with a value. */
 static pg_status read_option (request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;

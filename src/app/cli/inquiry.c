@@ -5,10 +5,10 @@
 #include "app/cli/preparation/cli.h"
 #include <string.h>
 
-/* The line of description of a catalogue entry; one function per catalogue follows. */
+/* Returns the line of description of a catalogue entry; one function per catalogue follows. */
 typedef const char *(*summary_of) (const char *name);
-/* The line of description of a force. The functions below do the same for the other
- * catalogues; an unknown name has "". */
+/* Returns the line of description of a force, "" for an unknown name. The functions after it do so for the
+ * other catalogues. */
 static const char *of_force (const char *n)
 {
     const pg_force_type *t = pg_force_find (n);
@@ -72,7 +72,7 @@ static const struct { const char *key; const char *(*names) (void); summary_of s
     { "output.format", pg_writer_names, of_writer },
 };
 
-/* One block per catalogue, headed by the key of the scene that chooses from it. */
+/* Prints one block per catalogue, headed by the key of the scene that chooses from it. */
 int pg_cli_list (int argc, char **argv)
 {
     char name[64];
@@ -92,7 +92,7 @@ int pg_cli_list (int argc, char **argv)
     return PG_EXIT_DONE;
 }
 
-/* All keys of the scene, one per line, in the order of the folders that own them. */
+/* Prints all keys of the scene, one per line, in the order of the source folders that define them. */
 static void all_keys (void)
 {
     const pg_key *key;

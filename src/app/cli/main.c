@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal: finds the command and starts it. Numbers of threads of the libraries (OpenBLAS,
- * OpenMP) are set in the environment before these are loaded, which happens when the first
- * matrix is factored (base/library.c). All else is in the files of the commands. */
+ * perigal: finds the command and starts it. Numbers of threads of the libraries (OpenBLAS, OpenMP) are set in
+ * the environment before these are loaded, which happens when the first matrix is factored (base/library.c).
+ * All else is in the files of the commands. */
 #include "app/cli/preparation/cli.h"
 #include "app/cli/plots/plot.h"
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
     { "help", pg_cli_help, "help [KEY | COMMAND | --manual | --schema] explain the keys of the scene file" },
 };
 
-/* Commands and exit codes. */
+/* Prints commands and exit codes. */
 static void usage (FILE *to)
 {
     fprintf (to, "Perigal " PG_VERSION
@@ -43,9 +43,9 @@ static void usage (FILE *to)
                  "            files), 130 interrupted\n");
 }
 
-/* The number that --threads gives, 0: none, or one for each processor. getopt_long, which reads the options
- * later, takes "--threads N", "--threads=N" and every shorter beginning of the word that is no beginning of
- * another option; of two the last one counts. */
+/* Returns the number that --threads gives; 0: it is not given, or 0. getopt_long, which reads the options
+ * later, takes "--threads N", "--threads=N" and every abbreviation of the word that fits no other option; if
+ * it is given twice the last one counts. */
 static long threads_given (int argc, char **argv)
 {
     static const char word[] = "--threads";
@@ -59,10 +59,9 @@ static long threads_given (int argc, char **argv)
     return n > 0 ? n : 0;
 }
 
-/* An environment that limits OpenMP to one thread: the OpenMP threads of CHOLMOD only slow it
- * down beside a threaded BLAS, and only the environment limits them, which OpenMP and BLAS read
- * when they are loaded. If OMP_THREAD_LIMIT is set already, nothing is done: the user, or the
- * program that started this one, has settled it. */
+/* Sets the environment so that OpenMP has one thread: the OpenMP threads of CHOLMOD only slow it down beside
+ * a threaded BLAS, and OpenMP and BLAS read their limits from the environment when they are loaded. If
+ * OMP_THREAD_LIMIT is set already, by the user or a program that started this one, nothing is done. */
 static void settle_threads (int argc, char **argv)
 {
     char count[16];

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The kinds, in the order of the files: "beam, cloud, ...". */
+/* Prints the kinds in the order of the files: "beam, cloud, ...". */
 static void kinds (FILE *to)
 {
     const char *last = "";
@@ -20,7 +20,7 @@ static void kinds (FILE *to)
     }
 }
 
-/* The nearest kind to a misspelt one; NULL: none is near. */
+/* Returns the kind most similar to a misspelt one; NULL: none is similar. */
 static const char *nearest (const char *kind)
 {
     char names[400] = "";
@@ -47,7 +47,7 @@ done:
     return status;
 }
 
-/* Writes one file, never over another. */
+/* Writes one file; fails if it exists. */
 static pg_status write_file (const char *folder, const char *name, const char *const *line)
 {
     pg_status status = PG_OK;
@@ -68,7 +68,7 @@ done:
     return status;
 }
 
-/* All files of a kind; PG_E_USAGE: there is no such kind. */
+/* Writes all files of a kind; PG_E_USAGE: there is no such kind. */
 static pg_status write_kind (const char *kind, const char *folder)
 {
     pg_status status = PG_OK;

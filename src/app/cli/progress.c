@@ -7,12 +7,11 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* Longest line; width of terminal below which its size is not believed; number of details at
- * most, which are taken away one after the other. */
+/* Longest line; width of a terminal, columns, below which it is taken for wrong; most details of a line,
+ * which are left out one after the other until it fits. */
 enum { LINE = 400, NARROW = 20, FULL = 3 };
 
-/* Both marks of the pace begin at the start of the run. stderr is asked whether it is a
- * terminal. */
+/* Starts the display: both marks of the pace are at the start of the run. */
 void progress_start (progress *p, int quiet, const pg_solver_options *o)
 {
     double now = pg_seconds ();
@@ -25,8 +24,8 @@ void progress_start (progress *p, int quiet, const pg_solver_options *o)
     p->mark[0].at = p->mark[1].at = now;
 }
 
-/* The pace is that of the last third to two thirds of the time: what was easy at the start
- * does not count for ever. */
+/* Updates the marks: the pace is measured over the last third to two thirds of the time, so that an easy
+ * start does not count for ever. */
 static void keep_pace (progress *p, double now, double share, double events)
 {
     if (!p->begun) {
@@ -38,7 +37,7 @@ static void keep_pace (progress *p, double now, double share, double events)
     p->mark[1].at = now, p->mark[1].share = share, p->mark[1].events = events;
 }
 
-/* Seconds in words; more than 100 s as minutes, rounded up. */
+/* Writes seconds in words; more than 100 s as minutes, rounded up. */
 static void put_time (char *out, size_t size, double seconds)
 {
     if (seconds < 100) snprintf (out, size, seconds < 10 ? "%.1f s" : "%.0f s", seconds);
@@ -54,7 +53,7 @@ static void add (char *line, const char *text)
     snprintf (line + n, LINE - n, "%s%s", n ? ", " : "", text);
 }
 
-/* Which step: time steps, events with their pace since the first mark, or load steps with the
+/* Appends the step: time steps, events with their pace since the first mark, or load steps with the break
  * rounds of the current one (iterations, if it is relaxed). */
 static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step,
                       const pg_statistics *r, double now, int within)
@@ -74,9 +73,9 @@ static void add_step (char *line, const progress *p, const pg_progress *at, cons
     add (line, text);
 }
 
-/* Time passed, and the time left if shares of the run take even times: it follows from the
- * pace since the first mark. Nobody knows how many rounds of breaking will follow, so nothing
- * is said during one; with event stepping it is an upper bound. */
+/* Appends the time passed, and the time left if equal shares of the run take equal times: it follows from the
+ * pace since the first mark. How many break rounds will follow is unknown, so nothing is said during one;
+ * with event stepping it is an upper bound. */
 static void add_time (char *line, const progress *p, const pg_progress *at, double now, int breaking)
 {
     char word[32], text[64];
@@ -90,7 +89,7 @@ static void add_time (char *line, const progress *p, const pg_progress *at, doub
     add (line, text);
 }
 
-/* Appends a number in that format. */
+/* Appends a number in a printf format. */
 static void add_number (char *line, const char *format, double value)
 {
     char text[96];
@@ -98,7 +97,7 @@ static void add_number (char *line, const char *format, double value)
     add (line, text);
 }
 
-/* How near the ends of event stepping are, as far as they are known. */
+/* Appends how near the stop conditions of event stepping are, as far as they are known. */
 static void add_ends (char *line, const pg_progress *at)
 {
     if (at->event && isfinite (at->stiffness))
@@ -106,8 +105,8 @@ static void add_ends (char *line, const pg_progress *at)
     if (isfinite (at->damage)) add_number (line, "damage in stop.set %.2g", at->damage);
 }
 
-/* The line with `full` details: 0 the least, FULL everything: share of the run, step, load
- * factor, stiffness and damage for stop conditions, broken bonds, residual, time. */
+/* Composes the line with `full` details, from 0 to FULL (all): share of the run, step, load factor, stiffness
+ * and damage for stop conditions, broken bonds, residual, time. */
 static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
                      const pg_statistics *r, double now, int within)
 {
@@ -131,8 +130,8 @@ static size_t width_of_terminal (void)
     return ioctl (2, TIOCGWINSZ, &size) == 0 && size.ws_col >= NARROW ? size.ws_col : 80;
 }
 
-/* Takes details away until the line fits the terminal. "\r" goes back to its start, and ESC [
- * K clears the rest of it. */
+/* Writes the line with as many details as fit the terminal. "\r" goes back to its start, and ESC [ K clears
+ * the rest of it. */
 static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r,
                         double now, int within)
 {
@@ -146,8 +145,8 @@ static void write_line (const progress *p, const pg_progress *at, const pg_step 
     if (p->tty) fflush (stderr);
 }
 
-/* At most five lines per second on a terminal; elsewhere one for each tenth and one every ten
- * seconds or 2 % of the time, whichever is longer. */
+/* Shows the progress: at most five lines per second on a terminal; elsewhere one for each tenth of the run
+ * and one every ten seconds or 2 % of the time, whichever is longer. */
 void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report,
                     int within)
 {

@@ -23,8 +23,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What the solver did, in the terms of its kind: time steps, stages, or steps with solves;
- * explicit runs with their energy balance. */
+/* Prints what the solver did: time steps, stages, or steps with solves, by its kind; for explicit runs also
+ * the energy balance. */
 static void print_counts (const pg_statistics *r, const pg_solver_options *o)
 {
     if ((o->flags & PG_SOLVER_EXPLICIT))
@@ -51,7 +51,8 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
             r->energy.external, r->energy.strain, r->energy.kinetic, r->energy.damping, r->energy.dissipated);
 }
 
-/* Where growth went on by itself, and what the run made of it. */
+/* Prints how often cracks grew unstably, without more load, and how the run treated it (output of
+ * solver.on_instability). */
 static void print_instabilities (const pg_statistics *r, const pg_solver_options *o)
 {
     if (o->on_instability == PG_UNSTABLE_HOLD)
@@ -63,8 +64,8 @@ static void print_instabilities (const pg_statistics *r, const pg_solver_options
                 r->unstable.count, r->unstable.steps, r->unstable.time, r->energy.damping, r->unstable.jump);
 }
 
-/* The last lines of a run: work, peak and crack, estimated error, times, reference, what was
- * skipped, warnings, files. */
+/* Prints the summary of a run: work, peak and crack, estimated error, times, reference, what was skipped,
+ * warnings, files. */
 static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o,
                            const pg_problem *problem, const pg_statistics *early, double total)
 {
@@ -109,20 +110,20 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
         printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
-/* What is followed during a run; within = 1: the run ended in the middle of a step. */
+/* What `look` and `advance` need during a run; within = 1: the run ended in the middle of a step. */
 typedef struct {
     pg_result *result;
     pg_state *state;
     const pg_problem *problem;
     const pg_solver *solver;
     progress shown;
-    pg_statistics early;                               /* of before the first step: its warnings are told */
+    /* statistics before the first step, with their warnings */
+    pg_statistics early;
     int within;
-    int alone;                                         /* 1: it failed where other ranks do not know of it */
+    int alone;                                         /* 1: it failed where other ranks cannot know */
 } watched;
 
-/* Writes a checkpoint; if that fails, the older one is better than no run at all, so only a
- * message says it. */
+/* Writes a checkpoint; if that fails the run continues with the older one, and a message says so. */
 static void keep_now (const watched *w)
 {
     if (pg_result_checkpoint (w->result, w->state) != PG_OK && pg_rank () == 0)
@@ -137,7 +138,8 @@ static void show (watched *w, const pg_step *step)
     progress_show (&w->shown, &at, step, pg_solver_report_now (w->solver), w->within);
 }
 
-/* Does any rank want to stop, or is a checkpoint due on one? All of them then do so. Alone as it is. */
+/* Asks all ranks: stop 1 if any of them shall stop, due 1 if a checkpoint is due on any, so that all do the
+ * same. A single process asks itself. */
 static pg_status ask_all (const watched *w, int *stop, int *due)
 {
     pg_status status = PG_OK;
@@ -148,9 +150,9 @@ done:
     return status;
 }
 
-/* Called between the rounds of breaking in a step: writes a stage if one is due, shows
- * progress, ends the run if a signal asked for that, writes a checkpoint if one is due.
- * w->within tells `advance` afterwards whether it was this function that ended the step. */
+/* Called between the break rounds of a step: writes a stage if one is due, shows progress, ends the run if a
+ * signal asked for that, writes a checkpoint if one is due. w->within = 1 says to `advance` that this
+ * function ended the step. */
 static pg_status look (void *context, const pg_state *state, const pg_step *so_far)
 {
     pg_status status = PG_OK;
@@ -164,13 +166,13 @@ static pg_status look (void *context, const pg_state *state, const pg_step *so_f
         PG_FAIL (PG_E_INTERRUPTED, "interrupted in step %ld after %ld break rounds", so_far->number,
                  so_far->iterations);
     if (due) keep_now (w);
-    w->within = 0;                                     /* set: it was this look that has ended the step */
+    w->within = 0;                                     /* still 1 if this function has ended the step */
 done:
     return status;
 }
 
-/* All steps to the end. A step that failed outside of `look` was refused, so that the state is
- * that of its start. */
+/* Makes all steps. A step that failed, but not in `look`, was rolled back, so that the state is that of its
+ * start. */
 static pg_status advance (pg_solver *solver, watched *w, int quiet)
 {
     pg_status status = PG_OK;
@@ -187,7 +189,7 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
                      state->factor);
         status = pg_solver_step (solver, state, &step);
         if (status != PG_OK && !w->within) pg_result_refused (w->result);
-        /* what conjugate gradients find out all ranks find out */
+        /* failures of conjugate gradients occur on all ranks alike */
         w->alone = status != PG_OK && status != PG_E_INTERRUPTED && status != PG_E_EQUILIBRIUM
                    && status != PG_E_NOT_SPD && !w->within;
         PG_TRY (status);
@@ -201,16 +203,16 @@ done:
     return status;
 }
 
-/* Writes what it takes to go on with a run that did not come to its end; 1 if there is a
- * checkpoint now, be it an older one. A run that has done nothing needs none. */
+/* Writes a checkpoint of a run that did not come to its end; 1 if there is a checkpoint now, even an older
+ * one. A run that has done nothing needs none. */
 static int keep_for_later (const watched *w)
 {
     if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet */
     return pg_result_checkpoint (w->result, w->state) == PG_OK || pg_result_kept (w->result);
 }
 
-/* A new result, or a resumed one; --force first discards what an unfinished run left. Other
- * numbers of threads may change the last digits of library calls, which is said. */
+/* Opens a new result, or resumes one; --force first discards what an unfinished run left. With another number
+ * of threads the last digits may differ, and a message says so. */
 static pg_status open_result (const command *c, const char *folder, const pg_scene *scene,
                               const pg_problem *problem, pg_solver *solver, watched *w)
 {
@@ -243,8 +245,8 @@ done:
     return status;
 }
 
-/* What a person is told on stderr at the end, whatever ended the run: the reasons, each once,
- * and how to go on where that is possible. */
+/* Prints on stderr, at the end, why the run ended, each reason once, and the command that continues it where
+ * that is possible. */
 static void tell_outcome (const command *c, pg_status outcome, const char *failure, pg_status written,
                           const char *fault, int kept)
 {
@@ -258,16 +260,16 @@ static void tell_outcome (const command *c, pg_status outcome, const char *failu
         fprintf (stderr, "perigal: nothing had been computed yet: the same command begins anew\n");
 }
 
-/* Everything between an open result and the last message. The checkpoint comes before the
- * results are finished, since a full disk may stop these. search: seconds of building; start:
- * when the run began. */
+/* Makes all steps, finishes the results and prints the summary. A checkpoint of a failed run comes before the
+ * results are finished, since a full disk may prevent that. search: seconds of building; start: when the run
+ * began, s. */
 static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w, double search, double start)
 {
     char failure[4096] = "", fault[4096];
     pg_status outcome = advance (solver, w, c->quiet), status;
     int kept = 0, failed = outcome != PG_OK;
     if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ());
-    if (w->alone && pg_rank_count () > 1) {            /* this rank alone has failed, the others still wait */
+    if (w->alone && pg_rank_count () > 1) {            /* the other ranks still wait for this one */
         fprintf (stderr, "perigal: rank %d: %s\n", pg_rank (), failure);
         if (pg_result_kept (w->result)) command_again (c);
         return outcome;
@@ -284,16 +286,17 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     return failed ? outcome : status;
 }
 
-/* Everything that a run is made of; freed in the reverse order of its making. */
+/* All parts of a run; freed in reverse order. */
 typedef struct {
     command    c;
     preparation p;
     char       folder[4096];                           /* of the results */
     watched    w;
-    int        finished;                               /* --resume of a run that is whole already */
+    int        finished;                               /* 1: --resume of a finished run */
 } run;
 
-/* What ranks share; it is asked of a scene of its own, as faults are found again later. */
+/* Decides whether ranks share the body or only matrices; a scene of its own is used, as faults are found
+ * again later. */
 static pg_status divide (const command *c, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -305,9 +308,8 @@ done:
     return status;
 }
 
-/* Everything that can refuse a run before its long work begins, the cheap refusals first:
- * folder, memory, faults of the scene, patch test. The name of the folder follows from the
- * scene unless it is given. */
+/* Makes all checks that can refuse a run before its long work begins, the cheap ones first: folder, memory,
+ * faults of the scene, patch test. The name of the folder follows from the scene unless it is given. */
 static pg_status prepare (run *r)
 {
     pg_status status = PG_OK;
@@ -330,7 +332,7 @@ done:
     return status;
 }
 
-/* The solver with the state that it starts from, and the result folder, which is touched last. */
+/* Creates the solver and its first state, and opens the result folder, which is changed last. */
 static pg_status open_run (run *r)
 {
     pg_status status = PG_OK;
@@ -351,8 +353,8 @@ done:
     return status;
 }
 
-/* Of a run that has come to its end nobody needs the folders of ranks any more: they hold copies of the rows.
- * Fields are in the result folder. */
+/* Removes the folders of the other ranks after a successful run: they hold copies of the rows. Fields are in
+ * the result folder. */
 static void drop_rank_folder (const run *r, pg_status status)
 {
     double failed = status != PG_OK;
@@ -365,7 +367,7 @@ static void drop_rank_folder (const run *r, pg_status status)
     rmdir (path);
 }
 
-/* Exit codes: 0 done, or finished already; 130 interrupted, with a checkpoint; others as in
+/* Runs the command. Exit codes: 0 done, or finished already; 130 interrupted, with a checkpoint; others as in
  * cli.h. */
 int pg_cli_run (int argc, char **argv)
 {
@@ -373,7 +375,7 @@ int pg_cli_run (int argc, char **argv)
     return pg_cli_run_ranks (argc, argv, &together);
 }
 
-/* Ranks begin on a processor each, unless they are told otherwise. */
+/* Runs the command on one of several ranks, with one thread each unless --threads is given. */
 int pg_cli_run_ranks (int argc, char **argv, int *together)
 {
     pg_status status = PG_OK;
@@ -392,7 +394,7 @@ int pg_cli_run_ranks (int argc, char **argv, int *together)
         goto done;
     }
     PG_TRY (pg_ranks_agree (open_run (&r)));
-    complained = 1;                                    /* by run_to_the_end, whatever comes */
+    complained = 1;                                    /* run_to_the_end prints every failure */
     status = run_to_the_end (&r.c, r.p.solver, &r.w, pg_seconds () - start, start);
     if (!r.w.alone) pg_result_free (&r.w.result), drop_rank_folder (&r, status);
 done:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal run SCENE --seeds N: the scene N times, with the seeds 1 to N for everything random in it, and the
- * spread of the peak loads (study.h). Called again it goes on: what is finished is not repeated. */
+ * perigal run SCENE --seeds N: runs the scene N times, with the seeds 1 to N for everything random in it, and
+ * measures the spread of the peak loads (study.h). Called again it continues: finished runs are not
+ * repeated. */
 #include "app/cli/preparation/cli.h"
 #include <string.h>
 

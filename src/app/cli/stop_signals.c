@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Signals that ask a run to stop. A thread of its own waits for them, and all others hold them back: they are
- * noted whatever the run is in at that moment, no system call is cut short, and libraries that put handlers
- * of their own in place (METIS for the time of an ordering, PETSc from its start on) do not get them.
- * Commands of many runs count signals instead (stops.c). */
+ * Signals that ask a run to stop. A thread waits for them, and all other threads block them: so they are
+ * noted at any moment of the run, no system call is interrupted, and libraries that install handlers of their
+ * own (METIS during an ordering, PETSc from its start on) do not get them. Commands of many runs count
+ * signals instead (stops.c). */
 #include "app/cli/preparation/cli.h"
 #include <pthread.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Number of the first signal, 0: none yet; 1: there is a folder of results to be left in order; and the
+/* Number of the first signal, 0: none yet; 1: there is a result folder, which must be left in order; the
  * signals that are waited for. One set per process. */
 static atomic_int first, opened;
 static sigset_t waited;
@@ -18,8 +18,8 @@ static sigset_t waited;
 int  run_asked_to_stop (void) { return atomic_load (&first); }
 void run_opens (void) { atomic_store (&opened, 1); }
 
-/* Nothing is lost by an end while the scene is read and the run prepared, which may take long and asks
- * nobody. */
+/* Ends the process while the scene is read and the run prepared: nothing is lost then, and that may take
+ * long. */
 static void end_before_results (void)
 {
     static const char words[] = "perigal: interrupted before its first step: the same command begins anew\n";
@@ -28,8 +28,9 @@ static void end_before_results (void)
     _exit (PG_EXIT_INTERRUPTED);
 }
 
-/* One request may come as several signals: timeout sends its own to the process and to the group of the
- * process, a terminal to all that run in it, of which mpirun or a command of many runs passes it on. */
+/* 1: less than half a second has passed since `since`. One request may come as several signals: timeout sends
+ * its own to the process and to its group, a terminal to all processes in it, and mpirun or a command of many
+ * runs passes it on. */
 int command_same_request (const struct timespec *since)
 {
     const double together = 0.5;                       /* s */
@@ -38,7 +39,8 @@ int command_same_request (const struct timespec *since)
     return (double) (now.tv_sec - since->tv_sec) + 1e-9 * (double) (now.tv_nsec - since->tv_nsec) < together;
 }
 
-/* The second request by a signal of one kind ends the process at once, as if nobody had listened. */
+/* Notes the first signal; a second request by a signal of one kind ends the process at once, as without this
+ * thread. */
 static void *wait_for_signals (void *none)
 {
     int number;
@@ -63,10 +65,10 @@ static void *wait_for_signals (void *none)
     return none;
 }
 
-/* SIGINT, SIGTERM, SIGHUP and SIGUSR1 (which mpirun passes on to its ranks and batch systems send ahead of
- * their limit). Those that the caller ignores (nohup) stay ignored, SIGINT excepted: a shell that starts a
- * command in the background has it ignored. Where no thread can be had, signals end the run as they come.
- * A file that grows beyond its limit is an error of writing, not a signal. */
+/* Starts to wait for SIGINT, SIGTERM, SIGHUP and SIGUSR1 (which mpirun passes on to its ranks and batch
+ * systems send before their time limit). Signals that the caller ignores (nohup) stay ignored, except SIGINT:
+ * a shell ignores it for commands in the background. If no thread can be created, signals end the run at
+ * once. A file beyond the size limit is an error of writing, not a signal. */
 void run_listen (void)
 {
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1 };

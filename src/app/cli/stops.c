@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Signals that ask a command of many runs to stop: they are counted, and the runs are asked as often. The
- * first one lets them write checkpoints, the second one ends them at once; this process lives on to say
- * what there is. Those that come at once count as one. A single run listens in its own way (signals.c). */
+ * Signals that ask a command of many runs to stop: they are counted, and passed on to the runs as often. The
+ * first one lets them write checkpoints, the second one ends them at once; this process continues, to report
+ * what there is. Signals within half a second count as one. A single run uses stop_signals.c instead. */
 #include "app/cli/preparation/cli.h"
 #include <signal.h>
 #include <string.h>
 #include <time.h>
 
 static volatile sig_atomic_t asked;
-static struct timespec since;                          /* when the first one came */
+static struct timespec since;                          /* time of the first signal */
 
 static void on_signal (int number)
 {
@@ -18,7 +18,8 @@ static void on_signal (int number)
     asked = asked + 1;
 }
 
-/* Signals that the caller ignores (nohup) stay ignored, SIGINT excepted. */
+/* Counts SIGINT, SIGTERM and SIGHUP from now on. Signals that the caller ignores (nohup) stay ignored, except
+ * SIGINT. */
 const volatile sig_atomic_t *command_stops (void)
 {
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal sweep SCENE --set KEY=A,B,C ...: the command line of a sweep (study.h): keys with several values,
- * how they are combined, how many runs at a time, what the table shall have. */
+ * how they are combined, how many runs at a time, which columns the table has. */
 #include "app/cli/preparation/cli.h"
 #include <math.h>
 #include <stdlib.h>
@@ -8,14 +8,14 @@
 #include <unistd.h>
 
 enum { MOST_JOBS = 64 };
-/* The request, the texts that it borrows, and what was given. */
+/* The request of a sweep, and the texts that it borrows. */
 typedef struct {
     pg_sweep_request q;
     char quantities[2048], memory[32];
     int quiet;
 } given;
 
-/* A whole number from low to high. */
+/* Reads an integer from low to high. */
 static pg_status read_count (int *out, const char *name, const char *text, int low, int high)
 {
     pg_status status = PG_OK;
@@ -28,7 +28,7 @@ done:
     return status;
 }
 
-/* --quantity A,B,C, as often as wanted. */
+/* Appends the names of one option --quantity A,B,C; it may be given several times. */
 static pg_status read_quantities (given *g, const char *text)
 {
     pg_status status = PG_OK;
@@ -41,7 +41,7 @@ done:
     return status;
 }
 
-/* Cuts what --quantity gave at its commas, in place. */
+/* Cuts the names of --quantity at the commas, in place. */
 static pg_status cut_quantities (given *g)
 {
     pg_status status = PG_OK;
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* An option that has a value. */
+/* Reads an option that has a value. */
 static pg_status read_option (given *g, const char *name, const char *value)
 {
     pg_status status = PG_OK;
@@ -89,7 +89,8 @@ done:
     return status;
 }
 
-/* The long name of a short option; "-j4" is not known, as "-o" and "-s" elsewhere have their value apart. */
+/* The long name of a short option; "-j4" is not accepted, as "-o" and "-s" elsewhere take their value as the
+ * next word. */
 static const char *long_name (const char *word)
 {
     static const char *const names[][2] = { { "-o", "--out" },  { "-s", "--set" },   { "-j", "--jobs" },
@@ -124,7 +125,8 @@ done:
     return status;
 }
 
-/* Without other words the processors and the memory are shared by the runs that go on at one time. */
+/* Shares processors and memory among the runs that go on at one time, unless the command line says how
+ * many. */
 void command_share (int jobs, int *threads, double memory, char text[32])
 {
     int each = command_threads () / jobs;
@@ -133,15 +135,15 @@ void command_share (int jobs, int *threads, double memory, char text[32])
     snprintf (text, 32, "%.0f", floor (memory > 0 ? memory : afford_available (&machine) / jobs));
 }
 
-/* One run at a time needs no limit of its own. */
+/* Sets threads and memory limit of each run; one run at a time needs no limit. */
 static void share (given *g)
 {
     command_share (g->q.jobs, &g->q.threads, 0, g->memory);
     if (!g->q.memory && g->q.jobs > 1) g->q.memory = g->memory;
 }
 
-/* Exit codes: 0 all runs done, 64 wrong use, 65 a combination is wrong, 70 some runs failed, 130
- * interrupted. */
+/* Runs the command. Exit codes: 0 all runs done, 64 wrong use, 65 a combination is wrong, 70 some runs
+ * failed, 130 interrupted. */
 int pg_cli_sweep (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a process does that perigal bench or perigal converge has started (study.h): one run,
- * or one finite element result, measured; the numbers go to stdout as lines "name value".
- * Users have no need of these two options. */
+ * The work of a process that perigal bench or perigal converge has started (study.h): one run, or one finite
+ * element result, is measured; the numbers go to stdout as lines "name value". Users have no need of these
+ * two options. */
 #include "app/cli/preparation/cli.h"
 
-/* --row SCENE -o DIR ...: the words are those of `perigal run`, so argv[0] is changed to its
- * name. Memory is forecast unless the scene fits any machine; the numbers of the trial go to
- * stdout. */
+/* Runs --row SCENE -o DIR ...: the words are those of `perigal run`, so argv[0] is changed to its name.
+ * Memory is forecast unless the scene fits any machine; the numbers go to stdout. */
 int pg_cli_trial (int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -29,8 +28,7 @@ done:
     return pg_exit_code (status);
 }
 
-/* --fem-row SCENE FILE UNIT [--set KEY=VALUE]...: measures FILE against the reference of
- * SCENE. */
+/* Runs --fem-row SCENE FILE UNIT [--set KEY=VALUE]...: measures FILE against the reference of SCENE. */
 int pg_cli_trial_of_mesh (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what the section `reference` of a scene consists of, and what its readers share. */
+ * Private to app/compare: contents of the section `reference` of a scene, and functions that several files
+ * use. */
 #ifndef PG_COMPARE_PRIVATE_H
 #define PG_COMPARE_PRIVATE_H
 #include "perigal/compare.h"
@@ -26,7 +27,8 @@ pg_status pg_compare_history (const char *folder, const char *key, double stamp,
 /* The material index of every quadrature point, that of the nearest evaluation point of the
  * problem (*which: q->n, to be freed with pg_free); stays NULL if there is one material only. */
 pg_status pg_compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
-/* Samplers of points fit a plane by least squares with these entries, whatever the scene itself takes. */
+/* Samplers of displacements at points use this approximation and kernel (a least-squares fit of a linear
+ * field), whatever the scene itself uses. */
 extern const pg_approx_type pg_approx_rkpm;
 extern const pg_kernel pg_kernel_cubic_spline;
 #endif

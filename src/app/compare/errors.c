@@ -79,7 +79,7 @@ done:
     return status;
 }
 
-/* Without a field to compare with (a reference of tables only) no norm is measured. */
+/* Measures the norms of value - reference; if the reference has no field (tables only), none. */
 pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where,
                              const pg_sampler *value, const pg_sampler *reference)
 {
@@ -99,7 +99,7 @@ done:
     return status;
 }
 
-/* The time includes reading of tables and closed forms at all places, not the reading of
+/* Measures norms and tables; `seconds` includes evaluation of tables and closed forms, not the reading of
  * files. */
 pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                              const pg_sampler *value, double t)

@@ -23,7 +23,7 @@ done:
     return status;
 }
 
-/* Both spellings of a column are accepted: the short names, and those of fields in result.e. */
+/* Names of the columns of values; `longer` are the names of fields in result.e, which are accepted too. */
 static const char *const names[9] = { "u_x", "u_y", "u_z", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx" };
 static const char *const longer[9] = { "displacement_x", "displacement_y", "displacement_z",
                                        "stress_xx",      "stress_yy",      "stress_zz",
@@ -40,8 +40,7 @@ typedef struct {
     int    meaning[MOST_COLUMNS];
     /* Factor from the unit of the column to SI, the factor of the table included for values. */
     double scale[MOST_COLUMNS];
-    /* Columns of the header (0: not read yet), line of the file from 1, capacities of the
-     * arrays. */
+    /* Columns of the header (0: not read yet); line of the file, from 1; capacities of the arrays. */
     size_t columns, at, cap_x, cap_value;
     double unit, factor;
     const double *along;
@@ -216,7 +215,7 @@ done:
     return status;
 }
 
-/* May be called twice. */
+/* Frees the arrays and zeroes the table; may be called again. */
 void pg_line_clear (pg_line *line)
 {
     pg_free (line->x), pg_free (line->value);

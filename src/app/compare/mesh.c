@@ -9,11 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A place that lies outside by at most this many element sizes still takes the value of the
- * nearest element: the surfaces of two discretizations of one curved body differ by a little. */
-#define FARTHEST 0.25  /* a place so far outside, in element sizes, still takes the nearest element */
+/* A point outside the mesh takes the value of the nearest element up to this distance: the surfaces of two
+ * discretizations of one curved body differ by a little. */
+#define FARTHEST 0.25  /* in element sizes */
 
-/* The result and what is needed to sample it. */
+/* A finite element result and what is needed to sample it. */
 typedef struct {
     /* Coordinates in m. */
     pg_mesh mesh;
@@ -21,15 +21,14 @@ typedef struct {
     pg_mesh_field u;
     pg_mesh_locator *locator;
     const pg_problem *problem;
-    /* Search among the evaluation points of the problem, whose material counts; NULL: one
-     * material. */
+    /* Search for the nearest evaluation point of the problem, whose material counts; NULL: one material. */
     pg_nearest *material;
-    /* Places so far outside by more than 1e-6 element sizes, and the farthest of them in
-     * element sizes. */
+    /* Number of sampled points outside the mesh by more than 1e-6 element sizes, and the largest distance
+     * among them, in element sizes. */
     size_t  outside;  double away;
 } fem;
 
-/* May be called with NULL. */
+/* Frees the sampler's context; NULL is allowed. */
 static void free_fem (void *context)
 {
     fem *f = context;
@@ -50,8 +49,8 @@ static const pg_material *law_at (const fem *f, const double *x)
                            (size_t) pg_nearest_find (f->material, x, NULL, NULL));
 }
 
-/* Samples one place. Returns 1 if an element holds it, or one lies near enough; such places
- * outside are counted, and callers report them: many of them mean that the two bodies differ. */
+/* Samples one point. Returns 1 if it lies in an element, or near enough to one; points outside are counted,
+ * and callers report them: many of them mean that the two bodies differ. */
 static int sample_place (fem *f, const double *x, double *u, double *stress)
 {
     double xi[3], away = 0, H[9];
@@ -64,7 +63,7 @@ static int sample_place (fem *f, const double *x, double *u, double *stress)
     return 1;
 }
 
-/* Places that no element knows become NAN. */
+/* Samples n points; values are NAN where no element is near enough. */
 static pg_status sample_fem (void *context, size_t n, const double *x, double *u, double *stress)
 {
     fem *f = context;
@@ -78,9 +77,8 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     return PG_OK;
 }
 
-/* Reads mesh and displacements of a step and scales both to m; results of one layer of 3D
- * elements become plane. PG_E_FILE if there is no displacement or the dimension is another
- * one. */
+/* Reads mesh and displacements of a step and scales both to m; results on one layer of 3D elements become 2D.
+ * PG_E_FILE if there is no displacement or the dimension is another one. */
 static pg_status read_fields (fem *f, const char *path, int step, double unit)
 {
     pg_status status = PG_OK;
@@ -135,7 +133,7 @@ done:
     return status;
 }
 
-/* Samplers of this kind are known by their function. */
+/* Returns the mesh of a sampler, NULL if it has none: samplers of meshes are recognized by their function. */
 const pg_mesh *pg_sampler_mesh_of (const pg_sampler *sampler, size_t *outside, double *away)
 {
     const fem *f = sampler->sample == sample_fem ? sampler->context : NULL;

@@ -37,8 +37,8 @@ done:
     return status;
 }
 
-/* The closed forms are measured against the finite elements where these have their own points,
- * so that no error of an interpolation between two discretizations enters. */
+/* Measures the finite elements against the closed forms at quadrature points of the elements, so that no
+ * error of an interpolation between two discretizations enters. */
 pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                           const char *path, int step, double unit, double t)
 {

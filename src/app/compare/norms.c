@@ -12,17 +12,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Places sampled at a time, which bounds the memory. Cells are taken in PARTS, of PLACES at least: each part
- * asks a sampler again what it has to know of the whole body (that no bond is broken, which field it is), and
- * only where a part has places enough does it look for those that are alike. */
+/* CHUNK: points sampled at a time, which bounds the memory. Cells are taken in PARTS of at least PLACES
+ * points: for each part a sampler finds out again what it has to know of the whole body (that no bond is
+ * broken, which field it is), and only where a part has enough points does it look for points with alike
+ * neighbourhoods. */
 enum { CHUNK = 16384, PARTS = 64, PLACES = 8192 };
 
-/* A measurement at work. */
+/* A measurement in progress. */
 typedef struct {
     /* Dimension; Voigt components of it; bits of the displacement components compared; 1 if
      * stress is. */
     int     dim, nv, u, stress;
-    /* The component among six that each Voigt component of the dimension is. */
+    /* Index among xx yy zz xy yz zx of each Voigt component of the dimension. */
     int     part[6];
     /* Cholesky factor of D of each material (36 values each). */
     double *L;
@@ -36,13 +37,13 @@ typedef struct {
     pg_norms *out;
 } measuring;
 
-/* The relative norm from difference and reference. */
+/* Computes the relative norm from difference and reference. */
 static void close_norm (pg_norm *n)
 {
     n->relative = n->difference == 0 ? 0 : n->reference > 0 ? n->difference / n->reference : INFINITY;
 }
 
-/* 1 if those of n values whose bit is set are finite. */
+/* 1 if all of the n values whose bit is set are finite. */
 static int finite_all (const double *a, int n, int bits)
 {
     for (int k = 0; k < n; k++) if ((bits >> k & 1) && !isfinite (a[k])) return 0;
@@ -64,7 +65,7 @@ static double complementary (const measuring *m, size_t material, const double *
     return sum;
 }
 
-/* Keeps the largest difference and its place. */
+/* Updates the largest difference and its position x. */
 static void largest (pg_norm *n, double size, int dim, const double *x)
 {
     if (!(size > n->difference)) return;
@@ -136,7 +137,7 @@ done:
     return status;
 }
 
-/* Room for the samples of n places. */
+/* Allocates arrays for the samples of n points. */
 static pg_status widen (measuring *m, size_t n)
 {
     pg_status status = PG_OK;
@@ -180,7 +181,7 @@ static void add_chunk (measuring *m, const pg_quadrature *q, size_t first, size_
     }
 }
 
-/* Chunk by chunk: sample both sides, then add. */
+/* Samples both sides chunk by chunk, and adds to the norms. */
 static pg_status add_places (measuring *m, const pg_quadrature *q, size_t chunk, const pg_sampler *value,
                              const pg_sampler *reference)
 {
@@ -197,7 +198,7 @@ done:
     return status;
 }
 
-/* The norms of the sums. */
+/* Computes the norms from the sums of squares. */
 static void finish (measuring *m)
 {
     pg_norms *out = m->out;
@@ -225,7 +226,7 @@ done:
     return status;
 }
 
-/* The material of every place is that of the nearest evaluation point. */
+/* Finds the material of every quadrature point: that of the nearest evaluation point. */
 static void find_materials (const pg_problem *p, const pg_nearest *near, const pg_quadrature *q, int *which)
 {
     int bulk = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
@@ -233,7 +234,7 @@ static void find_materials (const pg_problem *p, const pg_nearest *near, const p
         which[i] = p->at.law_of[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
 }
 
-/* A search for the material at a place; NULL where there is one material only. */
+/* Creates the search for the material at a point; NULL where there is one material only. */
 static pg_status search_materials (pg_nearest **out, const pg_problem *p)
 {
     int bulk = p->form.integration->at_nodes ? PG_NODES : PG_POINTS;
@@ -241,7 +242,8 @@ static pg_status search_materials (pg_nearest **out, const pg_problem *p)
     return pg_nearest_create (out, p->dim, p->bonds.rows[bulk].n, p->bonds.rows[bulk].x);
 }
 
-/* Cells in parts: the places of a large body would take more memory than anything else. */
+/* Takes the cells in parts, since the quadrature points of a large body would take more memory than anything
+ * else. */
 pg_status pg_norms_of_cells (pg_norms *out, const pg_problem *p, int order, const pg_expression *where,
                              const pg_sampler *value, const pg_sampler *reference)
 {

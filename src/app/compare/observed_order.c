@@ -15,7 +15,8 @@ enum { HALVINGS = 80 };
  * rounding and residuals of solvers. */
 static const double highest = 20, same = 1e-10;
 
-/* The answer without an order: what is known of limit and error, and why there is no order. */
+/* Returns the result where no order was found: what is known of limit and error, and why there is no
+ * order. */
 static pg_observed none (double limit, double error, const char *why)
 {
     pg_observed o = { NAN, limit, error, why };
@@ -37,7 +38,7 @@ static int falling (size_t n, const double *h)
     return 1;
 }
 
-/* After the bisection `high` is the order; the limit is v3 - (v2 - v3) / ((h2 / h3)^p - 1). */
+/* Finds the order from the last three values; the limit is v3 - (v2 - v3) / ((h2 / h3)^p - 1). */
 pg_observed pg_observed_of_values (size_t n, const double *h, const double *value)
 {
     if (n < 3) return none (NAN, NAN, "three sizes are needed");
@@ -75,7 +76,8 @@ pg_observed pg_observed_of_errors (size_t n, const double *h, const double *erro
     return o;
 }
 
-/* (at - a) (at - b) <= 0 says that `at` lies between a and b, in whichever order these come. */
+/* Interpolates y at `at` linearly in logarithms. (at - a) (at - b) <= 0 says that `at` lies between a and b,
+ * in whichever order they come. */
 double pg_loglog_at (size_t n, const double *x, const double *y, double at)
 {
     for (size_t k = 0; k + 1 < n; k++) {

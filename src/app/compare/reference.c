@@ -102,7 +102,8 @@ done:
     return status;
 }
 
-/* A run without the key integrates with one point more than the order of its basis. */
+/* Gauss points per direction of the norms: two more than the run has, at most 5. A run without
+ * method.gauss_points has one more than the order of its basis. */
 int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 {
     int own = pg_scene_given (scene, "method.gauss_points")
@@ -166,14 +167,14 @@ done:
     return status;
 }
 
-/* In the order of the scene. */
+/* Returns the tables in the order of the scene. */
 const pg_line *pg_reference_lines (const pg_reference *r, size_t *n)
 {
     *n = r->nline;
     return r->line;
 }
 
-/* Accepts one that was only half read. */
+/* Frees a reference, even if it was read in part only. */
 void pg_reference_free (pg_reference **reference)
 {
     pg_reference *r = *reference;
@@ -189,7 +190,7 @@ void pg_reference_free (pg_reference **reference)
 }
 
 /* ---- closed forms as a sampler ------------------------------------------------------------------------- */
-/* The context of the sampler, and one call of it. */
+/* forms: context of the sampler, closed forms at time t. sampling: one call of it. */
 typedef struct { const pg_reference *r; double t; } forms;
 typedef struct { const forms *f; const double *x; double *u, *stress; } sampling;
 
@@ -218,7 +219,8 @@ static pg_status sample_forms (void *context, size_t n, const double *x, double 
     return PG_OK;
 }
 
-/* A finite element result is lent out: the caller may clear the copy, which frees nothing. */
+/* Makes the sampler of the reference field. That of a finite element result stays with the reference:
+ * clearing the copy frees nothing. */
 pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *r, double t)
 {
     pg_status status = PG_OK;

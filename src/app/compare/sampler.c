@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Places at a time, which bounds the memory. */
-enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
+/* Points sampled at a time. */
+enum { CHUNK = 2048 };                                 /* bounds the memory */
 
-/* free is NULL for samplers that were lent out. */
+/* Frees a sampler; `free` is NULL for copies that do not own their context. */
 void pg_sampler_clear (pg_sampler *sampler)
 {
     if (sampler->free) sampler->free (sampler->context);
@@ -22,7 +22,7 @@ void pg_sampler_clear (pg_sampler *sampler)
 static int stress_bits (int dim) { return dim == 1 ? 1 : dim == 2 ? 1 | 2 | 4 | 8 : 63; }
 
 /* ---- solution ------------------------------------------------------------------------------------------ */
-/* A state of a force with shape functions of its own. */
+/* Context of a sampler: a state, and its force, which has shape functions. */
 typedef struct { const pg_force_type *force; void *self; const pg_state *state; } solution;
 
 static pg_status sample_solution (void *context, size_t n, const double *x, double *u, double *stress)
@@ -31,8 +31,8 @@ static pg_status sample_solution (void *context, size_t n, const double *x, doub
     return s->force->sample (s->self, s->state, s->state->d, n, x, u, stress, NULL);
 }
 
-/* For forces without shape functions: the fit through the displacements that they show at the
- * points. Rotations and coefficients are not used. */
+/* Makes a sampler for a force without shape functions: the fit through the displacements at the points.
+ * Rotations and coefficients are not used. */
 static pg_status least_squares (pg_sampler *out, const pg_problem *problem, const pg_force_type *force,
                                 void *self, const pg_state *state)
 {
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* The context holds no copy: state and force must outlive the sampler. */
+/* Makes a sampler of a solution. It copies neither state nor force, which must outlive it. */
 pg_status pg_sampler_solution (pg_sampler *out, const pg_problem *problem, const pg_force_type *force,
                                void *self, const pg_state *state)
 {
@@ -77,21 +77,21 @@ typedef struct {
     /* 1 for points that have lost bonds during the run (n), or NULL. */
     unsigned char *torn;
     pg_approx approx;
-    /* Search for the nearest evaluation point, which has the material; its kind is `bulk`. */
+    /* Search for the nearest evaluation point, whose material counts; bond set of these points. */
     pg_nearest *material;
     int bulk;
 } points;
 
-/* 1 if a pre-crack lies between a place and a point; that point does not take part in the fit. */
+/* 1 if a pre-crack lies between position x and a point, which then does not take part in the fit. */
 static int cut (const pg_problem *p, const double *x, int node)
 {
     return pg_cracks_cut (pg_state_cracks (p, NULL), x, p->cloud.x + (size_t) node * (size_t) p->dim,
                           pg_cloud_same (&p->cloud)) != NULL;
 }
 
-/* If a place has a torn point in reach, gives it the displacement of the nearest point and no
- * stress, and returns 1: a fit across an open crack would smear the jump, and its gradient
- * would be a false strain. */
+/* If a point with broken bonds (torn) is in the neighbourhood of place `at`, gives it the displacement of the
+ * nearest point and no stress, and returns 1: a fit across an open crack would smear the jump, and its
+ * gradient would be a false strain. */
 static int at_tear (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
 {
     size_t dim = (size_t) s->problem->dim, nearest = 0;
@@ -203,7 +203,7 @@ done:
 }
 
 /* ---- moved --------------------------------------------------------------------------------------------- */
-/* A field that is shifted and scaled. */
+/* Context of a sampler: a field that is shifted (m) and scaled. */
 typedef struct { pg_sampler field; double shift[3], factor; } moved;
 
 /* u_moved (x) = factor u (x - shift), and stress likewise. */

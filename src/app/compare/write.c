@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * CSV files of a comparison: place, value, reference and difference of each component; and the
- * differences at the points as one array for pictures. */
+ * CSV files of a comparison: position, value, reference and difference of each component; and the differences
+ * at the points as one array for pictures. */
 #include "perigal/compare.h"
 #include <math.h>
 #include <stdio.h>
 
-/* Places with values of both sides: u and v displacements (n x 3), s and t stresses (n x 6). */
+/* Positions with values of both sides: u and v displacements, m (n x 3), s and t stresses, Pa (n x 6);
+ * columns that are written. */
 typedef struct { size_t n, ncolumn; int dim, column[9]; const double *x; double *u, *s, *v, *t; } pairs;
 
 /* The value of a column at place i: 0 to 2 displacement x y z, m; 3 to 8 stress xx yy zz xy yz zx, Pa. */
@@ -52,7 +53,7 @@ done:
     return status;
 }
 
-/* One row per point. */
+/* Writes one row per point of the cloud. */
 pg_status pg_compare_points (const char *path, const pg_cloud *cloud, const pg_sampler *value,
                              const pg_sampler *reference)
 {
@@ -77,8 +78,8 @@ done:
     return status;
 }
 
-/* One row per row of the table; the reference columns are its own values in SI. A value that
- * one side lacks is an empty cell. */
+/* Writes one row per row of the table; the reference columns are its own values in SI. A value that one side
+ * lacks is an empty cell. */
 pg_status pg_compare_line (const char *path, const pg_line *line, const pg_sampler *value)
 {
     pg_status status = PG_OK;

@@ -51,7 +51,8 @@ static int number_of (const char *text, double low, double high, double *value)
     return end != text && !*end && *value >= low && *value <= high;
 }
 
-/* Options with a number: name, range, whether it must be whole, what to say of another one. */
+/* Options that take a number: name, range, 1 if it must be an integer, and the words of the message about a
+ * wrong value. */
 enum { SIZE, ORDER, DIM };
 static const struct { const char *name; double low, high; int whole; const char *needs; } options[] = {
     [SIZE] = { "--size", 1e-300, 1e300, 0, "a positive length" },
@@ -123,7 +124,7 @@ static int elements_of (int dim)
     return n > 0;
 }
 
-/* The entities of a dimension; pair is to be freed with gmshFree. */
+/* Returns the entities of dimension dim; the caller frees .pair with gmshFree. */
 static entities entities_of (int dim)
 {
     entities list = { NULL, 0 };
@@ -160,7 +161,7 @@ static int is_stl (const char *path)
     return n > 4 && (!strcmp (path + n - 4, ".stl") || !strcmp (path + n - 4, ".STL"));
 }
 
-/* Elements of dimension `want` for the geometry that is loaded; 0: done. */
+/* Meshes the loaded geometry with elements of dimension `want`; returns 0, or 1 if that fails. */
 static int generate (const request *w, int want)
 {
     int e;
@@ -168,7 +169,7 @@ static int generate (const request *w, int want)
     return e || !elements_of (want) ? failed ("could not be meshed", w->input) : 0;
 }
 
-/* Sets the length of edges; a mesh that has its elements already keeps them, which is said. */
+/* Sets the edge length of elements; if the file has elements already they are kept, and a message says so. */
 static void set_size (const request *w, int meshed)
 {
     int e;
@@ -178,8 +179,8 @@ static void set_size (const request *w, int meshed)
     if (meshed) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
 }
 
-/* A mesh cannot have more dimensions than the body; only a closed surface of triangles can be filled. 0:
- * good. */
+/* Returns 0 if a mesh of dimension `want` can be made: at most the dimension of the body, or 3 inside a
+ * closed surface of triangles (.stl). */
 static int check_dimension (const request *w, int dim, int want, int stl)
 {
     if (dim < 1) return failed ("there is no body and no mesh in it", w->input);
@@ -291,7 +292,7 @@ static void start (void)
     gmshLoggerStart (&e);
 }
 
-/* The exit code of a conversion that ended with this one: what it printed must have been written. */
+/* Returns `code`, or 70 in place of 0 if standard output could not be written. */
 static int all_written (int code)
 {
     if (fflush (stdout) == 0 && !ferror (stdout)) return code;

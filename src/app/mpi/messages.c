@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The messages of ranks by MPI. Sums are made on rank 0 in the order of the ranks and sent to all, so that
- * they have the same bits everywhere and in every run; an MPI_Allreduce leaves the order to the library. */
+ * The messages of ranks by MPI. Sums are formed on rank 0 in the order of the ranks and sent to all, so that
+ * they have the same bits everywhere and in every run; MPI_Allreduce leaves the order to the library. */
 #include "messages.h"
 #include <limits.h>
 #include <mpi.h>
 #include <string.h>
 
-/* What ranks have to know of MPI, and room for what is sent and received; nothing else keeps it. */
+/* The functions and buffers of the messages. `here` is the only reference to them. */
 typedef struct {
     pg_ranks ranks;
     double  *send, *receive;  size_t cap_send, cap_receive;
@@ -14,7 +14,7 @@ typedef struct {
 } messages;
 static messages *here;
 
-/* PG_OK, or what MPI says. */
+/* Turns an error code of MPI into a status with its message. */
 static pg_status said (int code)
 {
     char text[MPI_MAX_ERROR_STRING] = "";
@@ -29,7 +29,7 @@ static pg_status check_count (size_t n)
     return n <= INT_MAX ? PG_OK : pg_error (PG_E_LIMIT, PG_HERE, "a message of %zu numbers is too long", n);
 }
 
-/* Numbers of all ranks together in one gather, so that rank 0 needs no more than 8 MiB for them. */
+/* Numbers that one gather brings to rank 0 from all ranks together: at most about 8 MiB. */
 enum { AT_ONCE = 1 << 20 };
 
 static pg_status sum (void *context, size_t n, double *value)
@@ -50,7 +50,7 @@ done:
     return status;
 }
 
-/* The largest of several is the same in any order; what is no number is not looked at (maximum of MPI). */
+/* Largest value over the ranks, which does not depend on their order; NAN is left to MPI_MAX. */
 static pg_status most (void *context, size_t n, double *value)
 {
     pg_status status = PG_OK;
@@ -61,7 +61,7 @@ done:
     return status;
 }
 
-/* Values of the points listed, side by side. */
+/* Copies the values of the points in a list, one after the other, into `out`. */
 static void pack (double *out, const int *point, size_t n, size_t components, const double *value)
 {
     for (size_t i = 0; i < n; i++)

@@ -4,7 +4,8 @@
 #define PG_MPI_MESSAGES_H
 #include "perigal/ranks.h"
 
-/* From now on this process is a rank of MPI_COMM_WORLD. An error of MPI is a status, not the end. */
+/* Makes this process a rank of MPI_COMM_WORLD, and ends that. Errors of MPI become a status and do not end
+ * the process. */
 void mpi_join  (void);
 void mpi_leave (void);
 #endif

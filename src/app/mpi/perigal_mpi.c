@@ -19,8 +19,8 @@ static void usage (FILE *to)
                  "            files, messages), 130 interrupted\n");
 }
 
-/* A rank that failed alone cannot tell the others, which wait for it: then all end. What ended on all ranks
- * ends in order. */
+/* Ends this rank. A rank that failed alone cannot inform the others, which wait for it, so that all are
+ * aborted; if all ranks have ended they finish in order. */
 static int end (int code, int together)
 {
     if (code != PG_EXIT_DONE && !together) MPI_Abort (MPI_COMM_WORLD, code);
@@ -52,7 +52,7 @@ int main (int argc, char **argv)
     setenv ("OMP_THREAD_LIMIT", "1", 0);
     setenv ("OPENBLAS_NUM_THREADS", "1", 0);
     pg_signals before;
-    pg_signals_hold (&before);                         /* in the threads of MPI */
+    pg_signals_hold (&before);                         /* blocked in the threads of MPI */
     int joined = MPI_Init (&argc, &argv) == MPI_SUCCESS;
     pg_signals_release (&before);
     if (!joined) {

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A linear solver that ranks share: the matrix and its factor lie on all of them by rows, by PETSc (Balay et
- * al., PETSc/TAO Users Manual) and MUMPS (Amestoy et al. 2001, SIAM J. Matrix Anal. Appl. 23). Every rank
- * calls with the same matrix and right-hand sides (lock-step, perigal/ranks.h), keeps the rows that are its
- * own, and gets the whole solution, of the same bits. */
+ * A linear solver that ranks share: matrix and factor are distributed by rows, by PETSc (Balay et al.,
+ * PETSc/TAO Users Manual) and MUMPS (Amestoy et al. 2001, SIAM J. Matrix Anal. Appl. 23). Every rank calls
+ * with the same matrix and right-hand sides (lock-step, perigal/ranks.h), keeps its own rows, and gets the
+ * whole solution with the same bits. */
 #include "petsc_factor.h"
 #include "petsc_library.h"
 #include <mpi.h>
 #include <string.h>
 
-/* State of the solver. The rows first .. last - 1 are this rank's, as rows of both triangles: start
- * (rows + 1), column, and the entry of A that each value comes from. */
+/* State of the solver. This rank has the rows first .. last - 1 of both triangles: start (rows + 1), column,
+ * and the entry of A from which each value is copied. */
 typedef struct {
     Mat   A, F;
-    int   size, *count, *begin;                        /* rows of every rank, and where they begin */
+    int   size, *count, *begin;                        /* number of ranks; rows of each, and its first row */
     long  first, last;
     size_t n;
     PetscInt *start, *column;
     long  *from;
     double *value, *local;  size_t cap_local;
     double entries, flops;
-    PetscInt room;                                     /* of MUMPS, percent */
-    PetscInt order;                                    /* MUMPS' number of its ordering */
+    PetscInt room;                                     /* extra memory of MUMPS, percent */
+    PetscInt order;                                    /* number of the ordering in MUMPS */
 } shared;
 
 enum { FIRST_ROOM = 40, MOST_ROOM = 1000 };
@@ -39,7 +39,7 @@ static void shared_free (void **self)
     *self = NULL;
 }
 
-/* Equal numbers of nodes a rank. */
+/* Gives every rank the same number of nodes, with all their rows. */
 static pg_status divide_rows (shared *s, int block)
 {
     pg_status status = PG_OK;
@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* Entry p of A, at row i of column j, gives the two entries (i, j) and (j, i). */
+/* Notes entry p of A (one triangle) at (row, column), if this rank has the row. */
 static void note (shared *s, long row, long column, long p, PetscInt *fill)
 {
     if (row < s->first || row >= s->last) return;
@@ -65,7 +65,7 @@ static void note (shared *s, long row, long column, long p, PetscInt *fill)
     s->column[at] = (PetscInt) column, s->from[at] = p;
 }
 
-/* The rows of this rank. */
+/* Builds the rows of this rank from the triangle A. */
 static pg_status take_rows (shared *s, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -112,7 +112,7 @@ done:
     return status;
 }
 
-/* The matrix of all ranks; its pattern stays, so that MUMPS analyses it once. */
+/* Fills the distributed matrix; its pattern stays, so that MUMPS analyses it once. */
 static pg_status fill_matrix (shared *s, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -136,7 +136,8 @@ done:
     return status;
 }
 
-/* The analysis. room: how much more than it predicts MUMPS may take for pivots that are put off, percent. */
+/* Makes the symbolic factorization. room: memory that MUMPS may take beyond its prediction, for delayed
+ * pivots, percent. */
 static pg_status analyse (shared *s, PetscInt room)
 {
     pg_status status = PG_OK;
@@ -144,7 +145,7 @@ static pg_status analyse (shared *s, PetscInt room)
     if (s->F) PG_TRY (said (MatDestroy (&s->F), "MUMPS"));
     PG_TRY (said (MatFactorInfoInitialize (&info), "the analysis"));
     PG_TRY (said (MatGetFactor (s->A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &s->F), "MUMPS"));
-    /* METIS, where MUMPS has it, by one rank: the same order on any number of ranks */
+    /* ordering by METIS, where MUMPS has it, on one rank: equal for any number of ranks */
     PG_TRY (said (MatMumpsSetIcntl (s->F, 28, 1), "MUMPS"));
     PG_TRY (said (MatMumpsSetIcntl (s->F, 7, 5), "MUMPS"));
     PG_TRY (said (MatMumpsSetIcntl (s->F, 13, 1), "MUMPS"));       /* counts of pivots at the root too */
@@ -155,8 +156,8 @@ done:
     return status;
 }
 
-/* L D L' of MUMPS; the number of negative entries of D tells whether the matrix is positive definite. Where
- * its room was too little MUMPS has to begin with the analysis again. */
+/* Computes L D L' by MUMPS; the number of negative entries of D tells whether the matrix is positive
+ * definite. If its memory was too small MUMPS has to begin with the analysis again. */
 static pg_status shared_factor (void *self, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -194,7 +195,7 @@ done:
     return status;
 }
 
-/* Several right-hand sides at once: each rank gives its rows of them and gets the others' rows of x. */
+/* Solves for several right-hand sides at once: each rank gives its own rows of b and gets all rows of x. */
 static pg_status shared_solve (void *self, size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loads PETSc when it is needed and fills the table of its functions. Ranks that divide the body mostly do
- * without it, and the libraries that it brings read their environment only after main has set it. */
+ * not need it, and the libraries that it loads thus read their environment after main has set it. */
 #include "petsc_library.h"
 #include <stddef.h>
 
@@ -30,7 +30,7 @@ pg_status petsc_load (void)
     PG_TRY (pg_library_load (&library));
     PG_TRY (petsc_said (PetscInitialize (NULL, NULL, NULL, NULL), "its start"));
     started = 1;
-    /* failures come back as codes, without words on the screen */
+    /* failures are returned as codes and not printed */
     PG_TRY (petsc_said (PetscPushErrorHandler (petsc.PetscReturnErrorHandler, NULL), "its start"));
 done:
     return status;

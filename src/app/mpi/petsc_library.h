@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private to perigal-mpi: the functions of PETSc that are called here, and its start. The library, which
- * brings a hundred others and takes longer to load than a small run for everything else, is loaded when the
- * first of them is needed (base/library.c): a name below is the entry of a table. Another function needs its
- * name in both lists. */
+ * loads a hundred others and takes longer to load than a small run takes in all, is loaded when the first
+ * function is needed (base/library.c): a name below is the entry of a table. Another function needs its name
+ * in both lists. */
 #ifndef PG_MPI_PETSC_LIBRARY_H
 #define PG_MPI_PETSC_LIBRARY_H
 #include "perigal/base.h"
 #include <petscksp.h>
-/* of PETSc, to count messages in variables of the library */
+/* a macro of PETSc, which counts messages in variables of the library */
 #undef MPI_Allgatherv
 
 #define PG_PETSC_CALLS(X) \
@@ -30,13 +30,13 @@ struct petsc_calls {
 #undef X
 };
 extern struct petsc_calls petsc;
-/* Loads PETSc and starts it, once per process; must have succeeded before any of the functions is called. All
- * ranks call. Nothing of the command line is read; the variable PETSC_OPTIONS is. PG_E_FILE: it is not
+/* Loads PETSc and starts it, once per process; must succeed before any of its functions is called. All ranks
+ * call. PETSc does not read the command line, but the variable PETSC_OPTIONS. PG_E_FILE: it is not
  * installed. */
 pg_status petsc_load (void);
-/* Ends it, where it was started. */
+/* Ends PETSc, if it was started. */
 void      petsc_end  (void);
-/* What PETSc or MUMPS says becomes a status; what: the work that failed, in words. */
+/* Turns an error code of PETSc or MUMPS into a status; what: the work that failed, in words. */
 pg_status petsc_said (PetscErrorCode code, const char *what);
 
 #define KSPGetOperators(...)             petsc.KSPGetOperators (__VA_ARGS__)

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The preconditioner of ranks that divide the body: one cycle of smoothed aggregation (P. Vanek, J. Mandel
- * and M. Brezina, Computing 56 (1996) 179; PETSc's GAMG) of the rows that each owns, with the rigid motions
- * of the points as near null space. Nodes are numbered rank by rank. Prescribed unknowns have rows of their
- * own that nothing couples with. The rows are those of K, or of the first coarse grid on a lattice, to which
- * several ranks add (src/linalg/preconditioner/multilevel_ranks.c). */
+ * and M. Brezina, Computing 56 (1996) 179; PETSc's GAMG) with the rows that each rank owns, and the rigid
+ * motions of the points as near null space. Nodes are numbered rank by rank. Prescribed unknowns have rows of
+ * their own, coupled to no others. The rows are those of K, or of the first coarse grid on a lattice, to
+ * which several ranks add (src/linalg/preconditioner/multilevel_ranks.c). */
 #include "petsc_factor.h"
 #include "petsc_library.h"
 #include <mpi.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Vectors of the rows owned here are `n` nodes of `block` unknowns; node: their numbers among the points
- * held. */
+/* State of the preconditioner. Vectors of this rank have `n` nodes of `block` unknowns; node: their numbers
+ * among the `held` points, owned ones and ghosts; fixed: 1 for prescribed unknowns. */
 typedef struct {
     Mat    A;
     PC     pc;
@@ -36,8 +36,8 @@ static void multigrid_free (void **self)
     *self = NULL;
 }
 
-/* The numbers of all nodes held, as doubles (exact below 2^53): owned ones count on from those of the ranks
- * before, ghosts are told by their owners. */
+/* Numbers all nodes held here, as doubles (exact below 2^53): owned nodes continue the numbers of lower
+ * ranks; ghosts get theirs from their owners. */
 static pg_status number_nodes (multigrid *m, const pg_subdomain *part, double **number)
 {
     pg_status status = PG_OK;
@@ -61,7 +61,7 @@ done:
 typedef struct {
     const pg_shared_rows *from;
     const double *number;
-    int          *node;                                /* couplings of one node */
+    int          *node;                                /* nodes coupled to one node */
     double       *value, *line;
     PetscInt     *column;
 } reading;
@@ -71,7 +71,7 @@ static int is_fixed (const pg_shared_rows *s, size_t node, size_t k)
     return s->fixed && s->fixed[node * (size_t) s->block + k];
 }
 
-/* How many couplings each row has with nodes owned here, and with others: the room that PETSc is to make. */
+/* Counts the couplings of each row to nodes owned here and to others, for which PETSc has to allocate. */
 static pg_status count_couplings (multigrid *m, reading *r, PetscInt *own, PetscInt *other)
 {
     pg_status status = PG_OK;
@@ -80,7 +80,7 @@ static pg_status count_couplings (multigrid *m, reading *r, PetscInt *own, Petsc
         size_t count = s->rows.row (s->rows.context, (size_t) m->node[k], 0, r->node, NULL);
         PetscInt here = 0;
         for (size_t c = 0; c < count; c++) here += s->subdomain->owned[r->node[c]];
-        if (count == 0) count = 1, here = 1;               /* its diagonal */
+        if (count == 0) count = 1, here = 1;               /* the diagonal alone */
         for (size_t a = 0; a < m->block; a++)
             own[k * m->block + a] = here * (PetscInt) m->block,
             other[k * m->block + a] = ((PetscInt) count - here) * (PetscInt) m->block;
@@ -88,13 +88,14 @@ static pg_status count_couplings (multigrid *m, reading *r, PetscInt *own, Petsc
     return status;
 }
 
-/* The diagonal of a node that nothing is coupled with. */
+/* Sets the diagonal of a row of a node that is coupled to nothing. */
 static pg_status put_unit (multigrid *m, PetscInt row, double value)
 {
     return said (MatSetValues (m->A, 1, &row, 1, &row, &value, ADD_VALUES), "rows of the preconditioner");
 }
 
-/* The rows of one node, prescribed unknowns taken out. mean: what their diagonal becomes. */
+/* Sets the rows of one node, with prescribed unknowns removed: their diagonal becomes *mean, the last
+ * positive diagonal entry. */
 static pg_status put_rows (multigrid *m, reading *r, size_t k, double *mean)
 {
     pg_status status = PG_OK;
@@ -149,8 +150,8 @@ done:
 }
 
 /* ---- rows that are sums over ranks --------------------------------------------------------------------- */
-/* Couplings of all nodes held, entry by entry: row, column and value; first 0 on the diagonal of each row
- * owned here, which PETSc is to have room for. value NULL: how many there are. */
+/* Lists the couplings of all nodes held: row, column and value of every entry, preceded by a 0 on the
+ * diagonal of each row owned here, which PETSc must allocate. value NULL: counts the entries only. */
 static size_t list_entries (const multigrid *m, reading *r, PetscInt *row, PetscInt *column, double *value)
 {
     const pg_shared_rows *s = r->from;
@@ -173,7 +174,7 @@ static size_t list_entries (const multigrid *m, reading *r, PetscInt *row, Petsc
     return at;
 }
 
-/* Unknowns that no node has get the mean of the others' diagonal: nothing is coupled with them. */
+/* Sets the diagonal of rows without a positive one to the mean of the others: they are coupled to nothing. */
 static pg_status fill_diagonal (multigrid *m)
 {
     pg_status status = PG_OK;
@@ -216,8 +217,8 @@ done:
     return status;
 }
 
-/* Rigid motions of the points as columns that are orthonormal over all ranks. With rotations of their own,
- * points move along each unknown alone: PETSc's usual choice for a block. */
+/* Gives PETSc the rigid motions of the points as near null space, orthonormal over all ranks. Points with
+ * rotational degrees of freedom get PETSc's default instead: one motion per unknown of a block. */
 static pg_status tell_motions (multigrid *m, const pg_shared_rows *s)
 {
     pg_status status = PG_OK;
@@ -239,12 +240,13 @@ done:
     return status;
 }
 
-/* Of functions of a coarse grid, which see many others: aggregates of those next to each other, told by
- * their couplings, so that cracks stay open. Iterations of a plate of 21260 unknowns: 11, with the cracks of
- * test/ranks/test_rest.sh 22; grids of twice the step, which cracks do not split, need 10 and 71. */
+/* Threshold of GAMG for functions of a coarse grid, each coupled to many others: only those next to each
+ * other, which have the larger couplings, are aggregated, so that cracks stay open. Iterations of a plate of
+ * 21260 unknowns: 11, with the cracks of test/ranks/test_rest.sh 22; grids of twice the step, which cracks do
+ * not split, need 10 and 71. */
 static const PetscReal close_by = 0.03;
 
-/* By an option, as the function for it has no effect (PETSc 3.18); what the user gives is left. */
+/* Sets an option of PETSc unless the user has given it; the function for it has no effect (PETSc 3.18). */
 static pg_status set_option (const char *name, const char *value)
 {
     pg_status status = PG_OK;
@@ -255,7 +257,8 @@ done:
     return status;
 }
 
-/* Options of GAMG can be given by PETSC_OPTIONS, with the prefix perigal_, of functions perigal_coarse_. */
+/* Sets up one GAMG cycle. Users give options in PETSC_OPTIONS with the prefix perigal_, for functions of a
+ * coarse grid perigal_coarse_. */
 static pg_status make_cycle (multigrid *m, int functions)
 {
     pg_status status = PG_OK;

@@ -44,7 +44,8 @@ static const hierarchy v2 = { "/sys/fs/cgroup", "memory.max", "memory.current", 
 static const hierarchy v1 = { "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
                               "total_inactive_file " };
 
-/* Least of the group `name` and all above it; a group that is not visible here sets no limit. */
+/* Memory that control group `name` and all groups above it leave, bytes: the least of them. A group that is
+ * not visible here sets no limit. */
 static double group_left (const char *root, const hierarchy *h, const char *name)
 {
     char folder[PATH];
@@ -62,7 +63,7 @@ static double group_left (const char *root, const hierarchy *h, const char *name
     }
 }
 
-/* Least of all control groups that /proc/self/cgroup names, bytes. */
+/* Memory left by all control groups that /proc/self/cgroup names, bytes: the least of them. */
 static double groups_left (const char *root)
 {
     char path[PATH], line[1024];
@@ -95,7 +96,8 @@ static double address_space_left (const char *root)
     return fmax (0, (double) r.rlim_cur - (pages > 0 ? pages * (double) sysconf (_SC_PAGESIZE) : 0));
 }
 
-/* INFINITY where nothing is known, as on systems without /proc: a forecast then refuses nothing. */
+/* Memory left to this process, bytes; INFINITY where nothing is known, as on systems without /proc: a
+ * forecast then refuses nothing. */
 double pg_available_memory (const char *root)
 {
     char path[PATH];

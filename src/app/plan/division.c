@@ -3,11 +3,11 @@
 #include "perigal/plan.h"
 #include <string.h>
 
-/* By the forecast of one process: a body so large that it is solved without a factor. */
+/* 1: the body is so large that one process would solve it without a factor, by its forecast. */
 static int is_large (const pg_scene *scene, const pg_method *const *methods)
 {
     pg_forecast f = { 0 };
-    pg_ranks_divide (0);                               /* every rank counts for itself */
+    pg_ranks_divide (0);                               /* every rank counts the whole body */
     return pg_forecast_scene (&f, scene, methods) == PG_OK && !f.linear;
 }
 

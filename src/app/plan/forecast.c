@@ -11,12 +11,13 @@
 #include <string.h>
 
 /* ---- the factor ---------------------------------------------------------------------------------------- */
-/* How many parts of one level have so many separators among their faces: 0, 1 or 2 along each axis. All
- * parts of a level have the same size, so that 27 numbers stand for up to 2^level parts. */
+/* Parts of the body at one level of the dissection, counted by how many of their two faces across each axis
+ * are separators: 0, 1 or 2. All parts of a level have the same size, so that 27 numbers stand for up to
+ * 2^level parts. */
 typedef struct { double count[3][3][3]; } parts;
 
-/* Every part is cut across axis k: both halves have one face more that is a separator, unless there were
- * two. */
+/* Cuts every part across axis k: the cut is a separator face of both halves, and each half keeps one of the
+ * two outer faces of the part. */
 static void halve (parts *p, int k)
 {
     parts q = { 0 };
@@ -56,9 +57,9 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 }
 
 /* ---- the linear solver --------------------------------------------------------------------------------- */
-/* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some
- * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor where iterations
- * with finite elements cost less (solve_costs.c). */
+/* The linear solver, chosen as a run does under `solver.linear: auto`: no factor where the mass dominates
+ * (conjugate gradients then need some 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega =
+ * 2 c_p / h), nor where iterations preconditioned by finite elements cost less (solve_costs.c). */
 static pg_solve_counts counts_of (const pg_forecast *f)
 {
     int set = f->is.nodal ? PG_NODES : PG_POINTS;
@@ -84,7 +85,8 @@ static int by_elements (const pg_forecast *f)
     return pg_solve_by_elements (&c, f->is.elements, f->is.events, f->is.dynamic);
 }
 
-/* In small time steps of implicit dynamics, where the diagonal does as preconditioner. */
+/* 1: implicit dynamics with time steps so small that the mass dominates and the diagonal does as
+ * preconditioner. */
 static int mass_dominates (const pg_forecast *f)
 {
     return f->is.dynamic && f->weight <= 9 * f->spacing * f->spacing;
@@ -120,14 +122,14 @@ const char *pg_forecast_item (int item)
  * hold. They are upper bounds within some 20 %, checked against the peak of whole runs
  * (test/app/results/test_memory.c). */
 
-/* Where points of a lattice share their rows (mechanics/galerkin/weak_form/galerkin_rows.c): different
- * rows at most, as counted on
- * blocks and bodies with holes, and bonds of a part that is evaluated at a time. */
+/* Lattice points with alike neighbourhoods share rows of shape functions
+ * (mechanics/galerkin/weak_form/galerkin_rows.c): bonds of different rows at most, as counted on blocks and
+ * bodies with holes, and bonds of the part that is evaluated at a time. */
 static const double most_different = 4000, part = 5e5;
 
-/* Shape functions and their derivatives, strains and stresses at all points (galerkin), or the bonds of
- * forces that carry them alone: bits on a lattice, ends and a coefficient each in a list. rows: points of
- * all sets; all: bonds of all sets. */
+/* Bytes of shape functions and their derivatives, strains and stresses at all points (galerkin), or of the
+ * bonds of peridynamic forces: bits on a lattice, both ends and a coefficient each in a list. rows: points of
+ * all bond sets; all: bonds of all sets. */
 static double shape_bytes (const pg_forecast *f, double all, double rows)
 {
     double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->count.points, bytes;
@@ -145,14 +147,14 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
     return bytes;
 }
 
-/* Vectors of the unknowns (two states of three, thirteen of solvers, two of five numbers a point for
- * results), and what solves at rest without a factor add: rows of state-based forces, and the multilevel
+/* Bytes of vectors of the unknowns (two states of three, thirteen of solvers, two of five numbers a point for
+ * results), and of quasi-static solvers without a factor: rows of state-based forces, and the multilevel
  * preconditioner with its finest level and its first coarse matrix. Products with K by shape functions: runs
- * of points that are alike and sums of slices that overlap, 0.1 kB a point as measured on cubes of 3 000 to
- * 55 000 nodes; their preconditioner at rest: values of shape functions at the nodes and their transpose, 12
- * bytes an entry each, and the matrix of finite elements, whose nodes see 3^dim others; on a coarse grid the
- * functions at each node, twice. Contact: three arrays
- * of columns of the compliance, also of those that stay zero. */
+ * of alike points and sums of overlapping slices, 0.1 kB a point as measured on cubes of 3 000 to 55 000
+ * nodes; their quasi-static preconditioner: values of shape functions at the nodes and their transpose, 12
+ * bytes an entry each, and the matrix of finite elements, in which a node is coupled to 3^dim nodes; on a
+ * coarse grid the functions at each node, twice. Contact: three arrays of columns of the compliance,
+ * including columns that stay zero. */
 static double vector_bytes (const pg_forecast *f)
 {
     double d = f->dim, n = f->count.points, m = d + f->rotations, corners = pow (2, d), bytes;
@@ -169,9 +171,9 @@ static double vector_bytes (const pg_forecast *f)
     return bytes + 24 * f->count.dofs * f->count.columns * (f->dim == 3 && f->is.pressed == 1 ? 3 : 1);
 }
 
-/* K with its lists of blocks, and its factor, where there is one; slaves: unknowns that elimination takes
- * out, which costs a second matrix. 1.45: supernodes store zeros beside entries. General matrices have
- * two factors. */
+/* Bytes of K with its lists of blocks, and of its factor, if there is one. slaves: eliminated unknowns, which
+ * cost a second matrix. 1.45: supernodes store zeros beside entries. Unsymmetric matrices have two
+ * factors. */
 static void add_matrix_bytes (pg_forecast *f)
 {
     double bulk = f->is.nodal        ? f->count.bonds[PG_NODES]
@@ -190,17 +192,17 @@ static void add_matrix_bytes (pg_forecast *f)
     b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
 }
 
-/* Program and libraries, which are loaded when they are first needed: a run that draws nothing and solves by
- * products alone takes about 9 MB besides its arrays. Factors, and the coarsest level of preconditioners,
- * take SuiteSparse and BLAS with 6 MB. */
+/* Bytes of the program and of libraries, which are loaded when they are first needed: a run that draws
+ * nothing and solves by products alone takes about 9 MB besides its arrays. Factors, and the coarsest level
+ * of preconditioners, load SuiteSparse and BLAS with 6 MB. */
 static double program_bytes (const pg_forecast *f)
 {
     int factors = f->linear || !(f->is.explicit_ || mass_dominates (f));
     return 9e6 + (factors ? 6e6 : 0);
 }
 
-/* Bytes from counts, and their sum. Of each pair of phases that do not meet, the larger counts. 1.5e6: of any
- * run, however small; 37e6: pictures, with the libraries that draw them. */
+/* Computes the bytes of every item from counts, and their sum. 1.5e6: results of any run, however small;
+ * 37e6: pictures, with the libraries that draw them. */
 void pg_forecast_sum (pg_forecast *f)
 {
     double d = f->dim, n = f->count.points, m = d + f->rotations, *b = f->bytes;
@@ -213,7 +215,7 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->count.cells * 8 * d * pow (2, d);  /* pg_cloud, pg_cells */
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows */
     b[PG_BYTES_SHAPES] = shape_bytes (f, all, rows);
-    /* states; break_loop; factored */
+    /* bytes a bond: two states; arrays of break_loop; the bonds that K was factored with */
     b[PG_BYTES_BREAKING] = (2 + (f->is.explicit_ || !f->is.breaks ? 0 : 17) + (f->linear != NULL)) * all;
     b[PG_BYTES_VECTORS] = vector_bytes (f);
     b[PG_BYTES_RESULTS] = (f->count.fields + 2) * 6 * 8 * n + 1.5e6 + (f->is.pictures ? 37e6 : 0);
@@ -222,7 +224,7 @@ void pg_forecast_sum (pg_forecast *f)
     for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];
 }
 
-/* By the law of dissection, unless an analysis has counted. */
+/* Estimates the factor by nested dissection, unless an analysis of K has counted it. */
 void forecast_factor (pg_forecast *f)
 {
     if (f->is.analysed) return;
@@ -230,8 +232,8 @@ void forecast_factor (pg_forecast *f)
 }
 
 /* ---- from the problem ---------------------------------------------------------------------------------- */
-/* Nodes that transformation eliminates along axis k (role 1), and those that they see (role 2): a dense
- * inverse and a dense product each. */
+/* Counts nodes whose displacement along axis k the transformation method eliminates (role 1), and their
+ * neighbours (role 2): a dense inverse and a dense product for them. */
 static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned char *role)
 {
     const pg_family *fam = &p->bonds.rows[PG_NODES].family;
@@ -254,7 +256,8 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
     f->count.eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
 }
 
-/* As the loop over bonds decides under `auto`, which takes a stencil where one law serves all points. */
+/* 1: the bond loop goes through a list, as under `method.evaluation: auto` where bonds do not share one
+ * law. */
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
@@ -262,8 +265,9 @@ static int summed_by_list (const pg_problem *p)
            || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
-/* Forces between faces in contact: of pieces of cracks, two spacings long (2D) or wide and long (3D), across
- * the faces and, but without friction in space, along them. Growth adds to them. */
+/* Number of forces between crack faces in contact: cracks have pieces two spacings long (2D) or wide and long
+ * (3D), each with a force across the faces and, except without friction in 3D, forces along them. Growth adds
+ * to them. */
 static double contact_columns (const pg_forecast *f, const pg_problem *p)
 {
     double pieces = 0;
@@ -272,8 +276,8 @@ static double contact_columns (const pg_forecast *f, const pg_problem *p)
     return pieces * (p->dim == 3 && f->is.pressed == 1 ? 1 : p->dim);
 }
 
-/* Counts of the problem itself; pairs of nodes keep their number per point, which only an analysis knows
- * exactly. */
+/* Takes the counts of the problem itself; the number of coupled node pairs per point stays as it was, since
+ * only an analysis of K knows it exactly. */
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -300,7 +304,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->horizon = p->form.approx.horizon, f->spacing = p->cloud.h;
     f->count.columns = contact_columns (f, p);
     f->is.behind = pg_solve_count (p).behind, f->is.scattered = pg_solve_count (p).scattered;
-    /* from event to event by a factor that is kept: bonds one by one without contact (event_stepping.c) */
+    /* event stepping keeps its factor if there is neither contact nor crack growth (event_stepping.c) */
     f->is.events = f->is.events && !f->is.pressed && !pg_problem_grows (p);
     f->is.counted = 1;
     forecast_factor (f);
@@ -310,7 +314,7 @@ done:
     return status;
 }
 
-/* An ordering was made: its counts take the place of all estimates of the factor. */
+/* Takes the counts of an ordering of K that was computed, in place of all estimates of the factor. */
 void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops)
 {
     f->count.pairs = pairs, f->factor_entries = entries, f->factor_flops = flops;
@@ -320,8 +324,8 @@ void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, d
 }
 
 /* ---- what would fit ------------------------------------------------------------------------------------ */
-/* Counts scaled from one spacing to another: bodies with (h / h')^dim, faces with one power less, the
- * factor as dissection scales it. Points at the vertices of n cells along an edge are n + 1. */
+/* Returns the forecast for another spacing h': counts of the body times (h / h')^dim, of faces with one power
+ * less, the factor as dissection scales it. Points at the vertices of n cells along an edge are n + 1. */
 pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
 {
     pg_forecast g = *f;
@@ -348,7 +352,8 @@ pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
     return g;
 }
 
-/* By bisection over the logarithm of the spacing, rounded up to two digits; INFINITY: nothing would fit. */
+/* Finest spacing whose run fits into memory, m, by bisection over its logarithm, rounded up to two digits;
+ * INFINITY: none fits. */
 double pg_forecast_fitting (const pg_forecast *f, double available)
 {
     double fine = log (f->spacing), coarse = fine + log (1e6);
@@ -362,7 +367,7 @@ double pg_forecast_fitting (const pg_forecast *f, double available)
     return ceil (exp (coarse) / unit) * unit;
 }
 
-/* "3.1 GB". */
+/* Writes bytes with a unit, such as "3.1 GB". */
 static const char *in_words (char *text, size_t size, double bytes)
 {
     static const char *const unit[] = { "B", "kB", "MB", "GB", "TB", "PB", "EB" };
@@ -372,7 +377,7 @@ static const char *in_words (char *text, size_t size, double bytes)
     return text;
 }
 
-/* "; with method.integration: nodal 3.1 GB" */
+/* Appends what an alternative needs, such as "; method.integration: nodal needs about 3.1 GB (fits)". */
 static void alternative (const pg_forecast *g, const char *what, double available, char *text, size_t size)
 {
     char words[32];
@@ -381,8 +386,8 @@ static void alternative (const pg_forecast *g, const char *what, double availabl
               g->peak <= available ? " (fits)" : "");
 }
 
-/* The refusal names what takes the memory, and what would fit: a spacing, nodal integration, conjugate
- * gradients, a plane model. */
+/* Fails if the run needs more memory than is available; the message names what takes it, and what would fit:
+ * a spacing, nodal integration, conjugate gradients, a 2D model. */
 pg_status pg_forecast_afford (const pg_forecast *f, double available)
 {
     char text[1200] = "", need[32], have[32], items[400] = "", word[32];

@@ -7,18 +7,22 @@
 typedef struct {
     const pg_lattice *lattice;
     const pg_approx  *approx;
-    int centred, nodal, order;  /* points at cell centres; Gauss points per direction */
-    const pg_body *body;                               /* cells are cut by its surface; NULL: staircase */
+    /* 1: points at cell centres; 1: nodal integration; Gauss points per direction */
+    int centred, nodal, order;
+    /* its surface cuts cells; NULL: cells stay whole (staircase) */
+    const pg_body *body;
     const pg_stencil *bonds;  /* without shape functions: the bonds of a point; else NULL */
 } pg_counting;
-typedef struct {                                       /* of the lattice given */
+typedef struct {                                       /* counts on the lattice of pg_counting */
     double cells, points, open[6];                     /* open faces -x +x -y +y -z +z */
-    double crossed;  /* open faces off the surface: about as many cells are cut */
-    double node_bonds, evaluation, point_bonds;        /* evaluation: Gauss points, 0 if nodal */
-    double pairs;                                      /* as in pg_forecast */
-    double coupled;  /* most nodes that a node shares points with, itself included */
+    double crossed;  /* open faces whose centre is off the body's surface: about the number of cut cells */
+    /* bonds of nodes; Gauss points, 0 if nodal; bonds of Gauss points */
+    double node_bonds, evaluation, point_bonds;
+    /* pairs of nodes that share an evaluation point, (i, i) included */
+    double pairs;
+    double coupled;  /* largest number of nodes coupled to one node, itself included */
     int    sampled;                                    /* 1: bonds are extrapolated from a sample */
 } pg_tally;
-void forecast_factor (pg_forecast *f);                 /* unless it is analysed */
+void forecast_factor (pg_forecast *f);                 /* estimate, unless an analysis has counted */
 pg_status pg_tally_count (pg_tally *out, const pg_counting *how);
 #endif

@@ -3,22 +3,22 @@
 #include "forecast.h"
 #include <math.h>
 
-/* Measured on notched plates of 2 000 to 160 000 points and blocks of 6 000 to 75 000 on 1 to 4 ranks
- * (test/ranks/test_check.sh compares): MPI loaded and started; PETSc; what factors by MUMPS add. */
+/* Bytes per rank that MPI takes once started, PETSc once loaded, and factors by MUMPS in addition; measured
+ * on notched plates of 2 000 to 160 000 points and blocks of 6 000 to 75 000 on 1 to 4 ranks
+ * (test/ranks/test_check.sh compares). */
 static const double started = 12e6, loaded = 29e6, factoring = 10e6;
-/* Bytes of the rows of a preconditioner of PETSc over those of its finest matrix, in the plane and in space,
- * where coarse levels couple more; of a coarse matrix that is put together beside it, with the levels below;
- * of MUMPS over its factor: with transposes and work space. */
+/* Ratios of bytes. of_levels: a preconditioner of PETSc to its finest matrix, by dimension (in 3D coarse
+ * levels are coupled more); of_gathered: a coarse matrix that is gathered, with the levels below, to its
+ * rows; of_factor: MUMPS, with transposes and work space, to its factor. */
 static const double of_levels[4] = { 0, 1.45, 1.45, 2.8 }, of_gathered = 2.5, of_factor = 1.23;
 
 static void add (pg_forecast *f, int item, double bytes) { f->bytes[item] += bytes, f->peak += bytes; }
 
-/* Bytes of what is below the finest grid (linalg/preconditioner/multilevel_ranks.c), PETSc too if it is
- * that, of `total`
- * points on so many ranks. Of shape functions the first coarse grid has 2.5 times the step of the lattice
- * with what its functions have beside the body (a block of 331 056 points has 22 016), and functions see
- * those beside them; of bonds 4/3 of the reach, which so many couplings of a point tell, and functions see
- * two of them to each side. */
+/* Bytes of the preconditioner's levels below the finest grid (linalg/preconditioner/multilevel_ranks.c), and
+ * of PETSc if it holds them, for `total` points on so many ranks. With shape functions the first coarse grid
+ * has 2.5 times the step of the lattice and some functions beside the body (a block of 331 056 points has 22
+ * 016), each coupled to those next to it; with bonds it has 4/3 of the horizon, estimated from `couplings`
+ * per point, and functions are coupled to two on each side. */
 static double coarse_bytes (const pg_forecast *f, double couplings, double total, double ranks)
 {
     double d = f->dim, m = f->dim + f->rotations, shapes = f->method->shape_functions;
@@ -28,8 +28,8 @@ static double coarse_bytes (const pg_forecast *f, double couplings, double total
     return whole ? of_gathered * 8 * entries : loaded + of_levels[f->dim] * 12 * entries / ranks;
 }
 
-/* Of all that solves without a factor: off a lattice PETSc has the rows of K. In motion one process has no
- * preconditioner of bonds. */
+/* Adds the bytes of solvers without a factor: points that are not on a lattice have rows of K in PETSc. In
+ * dynamics the forecast of one process has no preconditioner for bonds; ranks do. */
 static void add_levels (pg_forecast *g, const pg_forecast *f, double owned, double total)
 {
     double d = f->dim, m = f->dim + f->rotations,
@@ -50,17 +50,18 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
         g.count.pairs *= more;
     g.count.summed *= more, g.count.patched *= more, g.count.slaves *= more, g.count.columns *= more;
     for (int s = 0; s < PG_BOND_SETS; s++) g.count.bonds[s] *= more;
-    g.is.pictures = 0;                                    /* none are drawn of a body that nobody holds */
+    /* no rank holds the whole body that they would show */
+    g.is.pictures = 0;
     g.is.scattered = 0;                                   /* elements on all nodes */
     g.is.automatic = 0, g.linear = NULL;
     pg_forecast_sum (&g);
     add (&g, PG_BYTES_PROGRAM, started);
     add (&g, PG_BYTES_POINTS, f->count.mesh);
     if (!f->is.explicit_) add_levels (&g, f, part->owned, total);
-    /* one rank puts the fields of all together at the end: places, volumes, numbers, and what is shown of
+    /* one rank gathers the fields of all at the end: positions, volumes, numbers, and the values shown of
      * each field, of which half have a component along each axis */
     if (collects) add (&g, PG_BYTES_RESULTS, total * (16 * d + 36 + 4 * (d + 1) * (f->count.fields + 1)));
-    /* at the start each has all points of a file for a moment */
+    /* at the start every rank holds all points of a points file for a moment */
     add (&g, PG_BYTES_POINTS, fmax (0, g.bytes[PG_BYTES_PROGRAM] + f->count.reading - g.peak));
     return g;
 }

@@ -8,19 +8,19 @@
 #include <sys/stat.h>
 
 static const double pi = 3.14159265358979323846;
-static const double most_cells = 4e6;                  /* counted one by one */
+static const double most_cells = 4e6;                  /* of a lattice that is counted, else a coarser one */
 
-/* Is a text, which may be missing, this word? */
+/* 1: the text, which may be NULL, equals this word. */
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 
-/* Radius, in nodes, of the ball that holds as many nodes as one is coupled to. */
+/* Radius, in spacings, of the ball that holds `coupled` nodes: as many as one node is coupled to. */
 static double radius_of (int dim, double coupled)
 {
     return dim == 3 ? cbrt (coupled * 3 / (4 * pi)) : dim == 2 ? sqrt (coupled / pi) : coupled / 2;
 }
 
-/* Facets that loads and supports use, as far as the names of their sets tell: a side has its open faces,
- * a set of the scene is taken for an average side. Supports need them by Nitsche's terms alone. */
+/* Number of facets that loads and supports use, guessed from the names of their sets: a side has its open
+ * faces, a set of the scene counts as an average side. Supports need facets for Nitsche's method only. */
 static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
 {
     static const char *const sides[6] = { "left", "right", "bottom", "top", "back", "front" };
@@ -44,8 +44,8 @@ static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
     return fmin (used, all);
 }
 
-/* Largest speed of a pressure wave, m/s, by the materials themselves; 0 without densities. Moduli that are
- * expressions of place count as none. */
+/* Largest pressure wave speed of the materials, m/s; 0 without densities. Moduli that depend on position do
+ * not count. */
 static double fastest_wave (const pg_scene *scene, int dim)
 {
     const char *name;
@@ -62,8 +62,8 @@ static double fastest_wave (const pg_scene *scene, int dim)
     return top;
 }
 
-/* Which linear solver is asked for; weight: beta (2 c dt)^2 of implicit dynamics, m^2, which says how
- * much K weighs beside the mass. */
+/* Reads which linear solver is asked for; weight = beta (2 c dt)^2 of implicit dynamics, m^2: how much K
+ * weighs compared with the mass. */
 static void read_solver (pg_forecast *f, const pg_scene *scene)
 {
     const char *linear = pg_scene_text (scene, "solver.linear");
@@ -86,8 +86,8 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 
-/* Do points of a lattice share their rows (mechanics/galerkin/weak_form/galerkin_rows.c), as far as
- * points and cracks allow? */
+/* 1: lattice points may share rows of shape functions (mechanics/galerkin/weak_form/galerkin_rows.c): there
+ * is no file of points, no mesh, no perturbation and no crack. */
 static int shares_rows (const pg_forecast *f, const pg_scene *scene)
 {
     if (!f->method->shape_functions || pg_scene_bool (scene, "solver.plain")) return 0;
@@ -95,7 +95,7 @@ static int shares_rows (const pg_forecast *f, const pg_scene *scene)
            && !(pg_scene_number (scene, "perturb.amount") > 0) && pg_scene_count (scene, "cracks") == 0;
 }
 
-/* What of the method changes counts or bytes. */
+/* Reads the entries of `method`, `failure` and `output` that change counts or bytes. */
 static void read_method (pg_forecast *f, const pg_scene *scene)
 {
     const char *criterion = pg_scene_text (scene, "failure.criterion");
@@ -109,11 +109,11 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
                      || pg_scene_number (scene, "perturb.amount") > 0
                      || pg_scene_count (scene, "blocks") > 1);
     f->is.nodal = !f->method->shape_functions || (integration && integration->at_nodes);
-    /* until bonds are counted */
+    /* consistent integration: 1 until its bonds are counted */
     f->count.summed = f->method->shape_functions && integration && integration->consistent;
     f->is.breaks = pg_scene_given (scene, "failure")
                    && !is (pg_scene_text (scene, "failure.criterion"), "none");
-    f->count.fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
+    f->count.fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* and the coefficients d */
     f->is.pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
     f->is.irregular = pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")
                    || pg_scene_number (scene, "perturb.amount") > 0;
@@ -129,8 +129,9 @@ static double lattice_step (const pg_lattice *l)
     return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
 }
 
-/* Consistent integration: a cell's points see what any of them, or of its faces, sees: about half a
- * spacing further. Faces have as many points again as there are in the cell. reach: horizon in spacings. */
+/* Adds bonds of consistent integration: each point of a cell or its faces has the neighbours of all of them,
+ * about half a spacing further out. Faces have as many points as the inside of the cell. reach: horizon in
+ * spacings. */
 static void widen (pg_forecast *f, double reach)
 {
     double wider = pow ((reach + 0.5) / reach, f->dim);
@@ -139,10 +140,10 @@ static void widen (pg_forecast *f, double reach)
     f->count.pairs *= pow ((reach + 0.25) / reach, f->dim);
 }
 
-/* Cut cells, of which half have their centre outside, have more points than whole ones: 1.23 and 1.6 times
- * as many, and where they are integrated consistently 2.6 and 5.1 times (2.4 to 3.5 and 3.3 to 5.6, measured
- * on disks, balls and cylinders: rather too many than too few); points near the surface see three quarters of
- * what others see. */
+/* Adds the evaluation points and bonds of cut cells, half of which have their centre outside. They have more
+ * points than whole ones: 1.23 and 1.6 times as many (2D, 3D), with consistent integration 2.6 and 5.1 times
+ * (2.4 to 3.5 and 3.3 to 5.6, measured on disks, balls and cylinders: rather too many than too few); points
+ * near the surface have three quarters of the neighbours of others. */
 static void add_cut (pg_forecast *f, const pg_tally *t, double finer, int consistent)
 {
     static const double points[2][3] = { { 1, 1.23, 1.6 }, { 1, 2.6, 5.1 } };
@@ -153,9 +154,9 @@ static void add_cut (pg_forecast *f, const pg_tally *t, double finer, int consis
     f->count.cells += 0.5 * crossed, f->count.evaluation += more;
 }
 
-/* Counts of the lattice at hand, which has steps `finer` times as wide as the scene's: bodies grow with
- * its power dim, facets with dim - 1. edge: nodes along a box that is as full as the body's is, for
- * nested dissection. */
+/* Takes the counts of a lattice whose steps are `finer` times as wide as the scene's, scaled: those of the
+ * body by finer^dim, of facets by finer^(dim - 1). edge: nodes along the edges of a full box with as many
+ * nodes as the body, for nested dissection. */
 static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t, const pg_counting *how,
                         const pg_lattice *l, double finer)
 {
@@ -180,13 +181,13 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->is.counted = !t->sampled && finer == 1 && t->crossed == 0;
     for (int k = 0; k < 3; k++)
         f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
-    /* a body that fills its box by half is a smaller box */
+    /* shrink the bounding box until its nodes are as many as the body's */
     double fill = pow (t->points / sites, 1.0 / f->dim);
     for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
 }
 
-/* The bonds of one point of forces between points, by the rule of the scene. Points that are perturbed
- * have partial volumes by distance, as they have no cells. */
+/* Builds the stencil of the bonds of one point, for peridynamic forces, by the rule of the scene. Perturbed
+ * points have no cells, so that their partial volumes follow from distances. */
 static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene,
                              const pg_lattice *l, const pg_approx *a)
 {
@@ -200,8 +201,8 @@ static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_
     return pg_stencil_build (out, &rule, l->dim, l->step);
 }
 
-/* Counts on the scene's lattice, or on one with 2, 4 ... times its steps where that has more than
- * most_cells cells; the horizon grows alike, so that points see as many others. */
+/* Counts on the scene's lattice, or on one with 2, 4 ... times its steps where that has more than most_cells
+ * cells; the horizon grows alike, so that points keep their number of neighbours. */
 static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -218,7 +219,7 @@ static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_
     PG_TRY (pg_lattice_fit (&l, body, spacing * finer, shifted ? offset : NULL));
     f->spacing = lattice_step (&l) / finer;
     PG_TRY (pg_method_approx (&a, f->method, scene, f->spacing));
-    f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice */
+    f->horizon = a.horizon, a.horizon *= finer;            /* m: as many steps of the coarser lattice */
     for (int k = 0; k < 3; k++) f->step[k] = l.step[k] / finer;
     int order = pg_scene_given (scene, "method.gauss_points")
                     ? (int) pg_scene_integer (scene, "method.gauss_points")
@@ -240,8 +241,8 @@ done:
     return status;
 }
 
-/* Elements, their evaluation points, and outer faces with theirs; bonds of these see as many nodes as a
- * node does on average. Each entry of `boundary` is taken for one of 2 dim sides. */
+/* Counts elements, their evaluation points, and the outer faces with theirs, which have as many bonds each as
+ * a node has on average. Each entry of `boundary` counts as one of 2 dim sides. */
 static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg_mesh_body *part,
                                  const pg_approx *a)
 {
@@ -256,7 +257,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     int *element = NULL, *side = NULL, node[9];
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
     f->count.cells = (double) m->n, f->count.evaluation = 0;
-    /* pg_mesh, pg_mesh_body: nodes, elements and their nodes */
+    /* bytes of pg_mesh and pg_mesh_body: nodes, elements and their nodes */
     f->count.mesh = 32 * (double) m->nnode + 25 * (double) m->n + 4 * (double) m->start[m->n];
     for (size_t e = 0; e < m->n && !f->is.nodal; e++) f->count.evaluation += count[m->kind[e]];
     f->count.bonds[PG_POINTS] = f->count.evaluation * each;
@@ -264,7 +265,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
     for (size_t k = 0; k < n; k++)
         all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
-    /* a side each */
+    /* every entry of `boundary` loads one side */
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
     f->count.facets = !f->method->shape_functions ? 0 : fmin (facets, all),
     f->count.bonds[PG_FACETS] = f->count.facets * 0.6 * each;
@@ -284,8 +285,8 @@ static double bytes_of_file (const pg_scene *scene, const char *key)
     return there ? (double) about.st_size : 0;
 }
 
-/* Points of a file or a mesh: their families are searched for as they are, on a sample of about 20 000
- * centres; the nodes that one shares a point with are about those in a ball of 1.6 horizons. */
+/* Counts the bonds of points from a file or a mesh: families are searched for about 20 000 of them; nodes
+ * that share an evaluation point with one node are about those within 1.6 horizons. */
 static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -300,17 +301,16 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
         PG_TRY (pg_mesh_body_cloud (&c, &part, scene));
     } else {
         PG_TRY (pg_cloud_build (&c, &l, body, scene));
-        /* its text and its points, which grow up to twice their length, and the list by which those that are
-         * there twice are found, with a copy to sort it (geometry/cloud/body/points_file.c): measured on 8
-         * ranks
-         * */
+        /* bytes to read it: its text; points in arrays that grow up to twice their length; the list by which
+         * duplicate points are found, with a copy to sort it (geometry/cloud/body/points_file.c): measured on
+         * 8 ranks */
         f->count.reading = 2 * bytes_of_file (scene, "points") + (132 + 16 * (double) c.dim) * (double) c.n;
     }
     PG_TRY (pg_method_approx (&a, f->method, scene, c.h));
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
     PG_ALLOC (centre, (c.n / stride + 1) * dim);
     for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
-    /* volumes fall over one spacing */
+    /* partial volumes fall to 0 over one spacing about the horizon */
     if (!f->method->shape_functions && !is (pg_scene_text (scene, "method.partial_volume"), "none"))
         a.horizon += 0.5 * c.h;
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
@@ -337,7 +337,7 @@ done:
     return status;
 }
 
-/* Faults of the scene that come to light on the way are added to it. */
+/* Forecasts a run from its scene; faults that come to light on the way are added to the scene. */
 pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene, const pg_method *const *methods)
 {
     pg_status status = PG_OK;
@@ -354,7 +354,7 @@ pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene, const pg_m
         PG_TRY (count_file (out, scene, &body));
     else PG_TRY (count_lattice (out, scene, &body));
     PG_TRY (pg_scene_verdict (scene));
-    /* bonds that something parts are counted here */
+    /* bonds that a gap or a notch of the body cuts are counted as well: the counts are not exact */
     if (body.n && pg_body_parts (&body, &(pg_mesh_body) { 0 }) > 0) out->is.counted = 0;
     forecast_factor (out);
     pg_forecast_sum (out);

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sizes of a body on its lattice without building it: cells, points and open faces exactly; bonds from
- * stencils (the points that a node or a Gauss point would see), exactly for small bodies, else on an even
- * sample; likewise the node pairs that share a point. */
+ * stencils (the sites within the horizon of a node or a Gauss point), exactly for small bodies, else on an
+ * even sample; likewise the pairs of nodes that share an evaluation point. */
 #include "forecast.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double most_visits = 1e7;                 /* a few hundredths of a second */
+static const double most_visits = 1e7;                 /* sites: a few hundredths of a second */
 
-/* Sites seen, relative to the node or the cell, and the same by rows along x: where each row is, and a bit
- * for each of its sites, the first for the smallest step of all stencils (words numbers a row). */
+/* Sites within the horizon as steps (x, y, z) from the node or the cell, and again as rows along x: (y, z) of
+ * each row, and a bit for each of its sites in `words` 64-bit words, the first bit for the smallest step of
+ * all stencils. */
 typedef struct { size_t n; int (*step)[3]; size_t nrow; int (*row)[2]; uint64_t *bits; } stencil;
 
 typedef struct {
@@ -20,9 +21,10 @@ typedef struct {
     size_t  nsite, ncell;
     unsigned char *site;                               /* 1: a point */
     stencil node, *gauss;  size_t ngauss;
-    int     span[3], wide[3];                          /* pairs: largest step, 2 span + 1 */
-    size_t  words;                                     /* of a row of the box of marks */
-    uint64_t *mark;                                    /* box of marks, a bit a site */
+    /* largest step between two nodes of a pair; 2 span + 1 */
+    int     span[3], wide[3];
+    size_t  words;                                     /* 64-bit words of a row of `mark` */
+    uint64_t *mark;                                    /* marked sites in a box about a node, a bit each */
 } counter;
 
 static void stencil_clear (stencil *s) { pg_free (s->step), pg_free (s->row), pg_free (s->bits); }
@@ -49,7 +51,7 @@ static size_t site_at (const counter *c, int x, int y, int z)
     return ((size_t) z * (size_t) c->size[1] + (size_t) y) * (size_t) c->size[0] + (size_t) x;
 }
 
-/* Is there a point at a site and a step from it? */
+/* 1: there is a point at site `at` plus `step`. */
 static int is_point (const counter *c, const int *at, const int *step)
 {
     int x = at[0] + step[0], y = at[1] + step[1], z = at[2] + step[2];
@@ -57,8 +59,8 @@ static int is_point (const counter *c, const int *at, const int *step)
     return c->site[site_at (c, x, y, z)];
 }
 
-/* An open face (f: -x +x -y +y -z +z) of a kept cell whose middle is not on the surface of the body: the
- * surface runs through a cell there. As many cells as such faces are crossed by a plane, whatever its
+/* 1: the centre of open face f (-x +x -y +y -z +z) of a cell is not on the surface of the body, so that the
+ * surface runs through a cell there. A plane crosses as many cells as there are such faces, whatever its
  * direction, so that counting these faces counts cut cells. */
 static int off_surface (const counter *c, int x, int y, int z, int f)
 {
@@ -70,7 +72,7 @@ static int off_surface (const counter *c, int x, int y, int z, int f)
     return !pg_shape_meshed (&c->how->body->shape[shape]) && away > 1e-6 * l->step[f / 2];
 }
 
-/* Open faces of a cell, and those that lie off the true surface. */
+/* Counts the open faces of a cell, and those whose centre is not on the true surface. */
 static void count_faces (const counter *c, pg_tally *t, int x, int y, int z)
 {
     for (int f = 0; f < 2 * c->l->dim; f++) {
@@ -83,7 +85,7 @@ static void count_faces (const counter *c, pg_tally *t, int x, int y, int z)
     }
 }
 
-/* Cells, open faces, and which sites are points. */
+/* Counts cells and open faces, and marks the sites that are points. */
 static pg_status count_sites (counter *c, pg_tally *t)
 {
     pg_status status = PG_OK;
@@ -135,7 +137,7 @@ done:
     return status;
 }
 
-/* The bonds of forces between points, which have been built already. */
+/* Copies the bonds of peridynamic forces, which have been built already. */
 static pg_status copy_stencil (stencil *out, const pg_stencil *from)
 {
     pg_status status = PG_OK;
@@ -146,7 +148,8 @@ done:
     return status;
 }
 
-/* Stencils of a node and of every Gauss point of a cell: which nodes it sees, the same for all cells. */
+/* Makes the stencils of a node and of every Gauss point of a cell: the sites within its horizon, equal in all
+ * cells. */
 static pg_status make_stencils (counter *c)
 {
     pg_status status = PG_OK;
@@ -168,7 +171,7 @@ done:
     return status;
 }
 
-/* How many points of a stencil exist, seen from one site. */
+/* Number of points at the sites of stencil `s` about site `at`. */
 static size_t seen (const counter *c, const int *at, const stencil *s)
 {
     size_t n = 0;
@@ -177,8 +180,8 @@ static size_t seen (const counter *c, const int *at, const stencil *s)
 }
 
 /* ---- pairs --------------------------------------------------------------------------------------------- */
-/* Marks in the box of marks about a node what a stencil sees from the place that is `from` away from it, row
- * by row. */
+/* Marks, in the box of marks about a node, the sites of stencil `s` centred `from` steps away from the node,
+ * row by row. */
 static void mark_seen (counter *c, const int *from, const stencil *s)
 {
     size_t shift = (size_t) (c->span[0] / 2 + from[0]), whole = shift / 64, part = shift % 64;
@@ -198,7 +201,7 @@ static void mark_seen (counter *c, const int *from, const stencil *s)
     }
 }
 
-/* How many marks are points. */
+/* Number of marked sites that are points. */
 static size_t count_marks (const counter *c, const int *node)
 {
     size_t n = 0, rows = (size_t) c->wide[1] * (size_t) c->wide[2];
@@ -229,7 +232,7 @@ static size_t coupled (counter *c, const int *node)
     return count_marks (c, node);
 }
 
-/* The rows of a stencil, whose steps come row by row. */
+/* Makes the rows and bits of a stencil, whose steps are sorted row by row. */
 static pg_status make_rows (const counter *c, stencil *s)
 {
     pg_status status = PG_OK;
@@ -246,8 +249,8 @@ done:
     return status;
 }
 
-/* A box of marks twice as far as any stencil reaches: two nodes that one point sees are at most so far
- * apart. */
+/* Allocates the box of marks, twice as far as any stencil reaches: two nodes in the stencil of one point are
+ * at most so far apart. */
 static pg_status make_marks (counter *c)
 {
     pg_status status = PG_OK;
@@ -267,21 +270,21 @@ done:
 }
 
 /* ---- the sample ---------------------------------------------------------------------------------------- */
-/* One of every `stride` items, at a place that changes from stride to stride (a multiplicative hash), so
- * that no row or column of the lattice is met more often than others. */
+/* 1: item i belongs to the sample: one of every `stride` items, at a position that changes from stride to
+ * stride (a multiplicative hash), so that no row or column of the lattice is met more often than others. */
 static int chosen (size_t i, size_t stride)
 {
     return i % stride == (size_t) (i / stride * 2654435761u) % stride;
 }
 
-/* So that about most_visits sites are visited, and at least 64 items in any case. */
+/* Stride of a sample that visits about most_visits sites, and at least 64 items in any case. */
 static size_t stride_for (double items, double visits_each)
 {
     return (size_t) fmax (1, fmin (ceil (items * visits_each / most_visits), floor (items / 64)));
 }
 
-/* Bonds of nodes, and pairs of nodes that share a point of evaluation (each pair once, a node with itself
- * included), on an even sample where there are many. */
+/* Counts bonds of nodes, and pairs of nodes that share an evaluation point (each pair once, a node with
+ * itself included), on an even sample where there are many. */
 static void count_nodes (counter *c, pg_tally *t)
 {
     double work = c->how->bonds  ? (double) c->node.n
@@ -309,7 +312,7 @@ static void count_nodes (counter *c, pg_tally *t)
     t->pairs = npair ? 0.5 * (pairs * (t->points / (double) npair) + t->points) : 0;
 }
 
-/* Bonds of points of evaluation, likewise. */
+/* Counts bonds of evaluation points, on an even sample where there are many. */
 static void count_gauss (counter *c, pg_tally *t)
 {
     double work = 0, bonds = 0;
@@ -329,8 +332,8 @@ static void count_gauss (counter *c, pg_tally *t)
     t->point_bonds = n ? bonds * (t->cells / (double) n) : 0;
 }
 
-/* Bonds so long that stencils would be large: counts as in the interior of an endless body then, at most
- * all points. Such a run is refused for its memory in any case. 1: counted so. */
+/* If the horizon is so large that stencils would be large, estimates the counts as inside an infinite body,
+ * at most all points, and returns 1. Such a run is refused for its memory in any case. */
 static int wide_open (const counter *c, pg_tally *t)
 {
     const pg_approx *a = c->how->approx;
@@ -351,7 +354,7 @@ static int wide_open (const counter *c, pg_tally *t)
     return 1;
 }
 
-/* On the lattice given, which may be coarser than that of the scene. */
+/* Counts on the lattice `how->lattice`, which may be coarser than that of the scene. */
 pg_status pg_tally_count (pg_tally *out, const pg_counting *how)
 {
     pg_status status = PG_OK;

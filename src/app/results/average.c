@@ -12,8 +12,8 @@ static const char *const fixed_columns =
     "step|time|load_factor|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|"
     "iterations|residual|utilisation|event|level|instability|motion_time|energy_damping";
 
-/* Writes "damage|displacement.x|...|stress.xx|...": every component that there is in this
- * dimension; `turns` is the number of rotations of a point. */
+/* Writes "damage|displacement.x|...|stress.xx|...": every component that fields have in this dimension;
+ * turns: number of rotations of a point. */
 static void component_names (int dim, int turns, char *out, size_t size)
 {
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress",
@@ -41,8 +41,8 @@ static int place_in (const char *names, const char *name)
 }
 
 /* ---- checks -------------------------------------------------------------------------------------------- */
-/* A fault of the scene with all possible names, and the nearest one, if the field is none of
- * them: "stress" alone is no column, "stress.yy" is. */
+/* Adds a fault to the scene, with all possible names and the nearest one, if the field is none of them:
+ * "stress" alone is no column, "stress.yy" is. */
 static void check_field (const pg_scene *scene, const char *path, const char *field, int dim, int turns)
 {
     char names[400], listed[600];
@@ -61,9 +61,8 @@ static void check_field (const pg_scene *scene, const char *path, const char *fi
     else pg_scene_fault (scene, path, "must be one component of a field in %dD: %s", dim, listed);
 }
 
-/* The columns that the user names (gauges, averages, tips) must differ from each other and
- * from those that are always there, and must not contain what separates cells or begins a
- * unit. */
+/* Checks the columns that the user names (gauges, averages, tips): they must differ from each other and from
+ * those that are always there, and must not contain characters that separate cells or begin a unit. */
 static void check_names (const pg_scene *scene)
 {
     static const char *const list[] = { "output.gauges", "output.averages", "output.tips" };
@@ -85,7 +84,7 @@ static void check_names (const pg_scene *scene)
         }
 }
 
-/* Names, fields and sets; an empty set has no mean. */
+/* Checks names, fields and sets; an empty set has no mean. */
 void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
 {
     char path[64];
@@ -102,7 +101,7 @@ void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
 }
 
 /* ---- columns and rows ---------------------------------------------------------------------------------- */
-/* The text "stress.xx" is taken apart into field and component; units follow from the field. */
+/* Reads output.averages: "stress.xx" is split into field and component; units follow from the field. */
 pg_status pg_result_averages_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -129,13 +128,13 @@ done:
     return status;
 }
 
-/* "NAME [UNIT]". */
+/* Writes the header of column i, "NAME [UNIT]". */
 void pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size)
 {
     snprintf (out, size, "%s [%s]", r->average[i].name, r->average[i].unit);
 }
 
-/* Mean of the component over the points of the set. Ranks: the share of this one. */
+/* Mean of the component over the points of the set; with several ranks the share of this one. */
 static double mean_of (const result_average *a, const pg_problem *p, const double *value, int components)
 {
     double sum = 0;
@@ -145,8 +144,8 @@ static double mean_of (const result_average *a, const pg_problem *p, const doubl
     return sum / (double) pg_set_points (a->set);
 }
 
-/* Each field is computed once, whatever the number of averages that ask for it. Forces without
- * fields give NAN. */
+/* Computes the averages of a row; each field is evaluated once, for all averages of it. Forces without fields
+ * give NAN. */
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row, double *work)
 {
     pg_status status = PG_OK;

@@ -41,7 +41,7 @@ static int among (const char *names, const char *name)
     return !strchr (name, '|') && strstr (framed_names, framed) != NULL;
 }
 
-/* A fault for each name that a list holds twice. */
+/* Adds a fault for each name that a list holds twice. */
 static void given_once (const pg_scene *scene, const char *key)
 {
     const char *a, *b;
@@ -55,7 +55,7 @@ static void given_once (const pg_scene *scene, const char *key)
         }
 }
 
-/* A fault with the list of names and the nearest one. */
+/* Adds a fault about an unknown picture, with the list of names and the nearest one. */
 static void fault_of_picture (const pg_scene *scene, const char *path, const char *name, const char *names)
 {
     char listed[800];
@@ -72,7 +72,7 @@ static void fault_of_picture (const pg_scene *scene, const char *path, const cha
 }
 
 /* ---- views --------------------------------------------------------------------------------------------- */
-/* A section must be readable and must meet the body, to within half a spacing. */
+/* Checks a section: it must be readable and must meet the body, to within half a spacing. */
 static void check_section (const pg_scene *scene, const pg_problem *p, const char *path, const char *text)
 {
     pg_picture_style style = { 0 };
@@ -93,7 +93,7 @@ static void check_section (const pg_scene *scene, const pg_problem *p, const cha
         pg_scene_fault (scene, path, "misses the body, which lies between %.6g and %.6g m", low, high);
 }
 
-/* Keys of a view that have a meaning in three dimensions only. */
+/* Checks the keys of a view that have a meaning in 3D only. */
 static void check_3d (const pg_scene *scene, const pg_problem *p, size_t i)
 {
     static const char *const solid[] = { "view", "section", "direction", "above" };
@@ -111,15 +111,15 @@ static void check_3d (const pg_scene *scene, const pg_problem *p, size_t i)
     }
 }
 
-/* File names: of plain letters, and not one that another picture has. */
+/* 1: the name is a file name of plain letters. */
 static int is_file_name (const char *name)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
     return *name && *name != '.' && strlen (name) <= 60 && strspn (name, plain) == strlen (name);
 }
 
-/* Has another picture of this run the name: one of output.pictures, of the views before, or one that every
- * run makes? */
+/* 1: another picture of this run has the name: one of output.pictures, of the views before, or one that every
+ * run makes. */
 static int is_taken (const pg_scene *scene, const pg_problem *p, size_t view, const char *name)
 {
     static const char *const own[] = { "load_displacement", "error", "tip", "tip_speed" };
@@ -134,8 +134,8 @@ static int is_taken (const pg_scene *scene, const pg_problem *p, size_t view, co
     return 0;
 }
 
-/* A file name consists of a few safe characters, and no two pictures have the same one, those
- * of curves and cracks included: the later one would overwrite the earlier one. */
+/* Checks a file name: it consists of a few safe characters, and no two pictures have the same one, those of
+ * curves and cracks included: the later one would overwrite the earlier one. */
 static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
 {
     char path[64];
@@ -148,8 +148,7 @@ static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
 }
 
-/* Everything about entry i of output.views: its field, what is for three dimensions only, its
- * range, its file name. */
+/* Checks entry i of output.views: its field, keys for 3D only, its range, its file name. */
 static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, const char *names)
 {
     char path[64];
@@ -166,7 +165,7 @@ static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, co
     check_name (scene, p, i);
 }
 
-/* The error estimate smooths the stress of shape functions; forces without these have none. */
+/* Adds a fault if error_estimate is asked for without shape functions, whose stress it smooths. */
 static void check_estimate (const pg_scene *scene, const pg_problem *problem)
 {
     static const char *const keys[] = { "output.fields", "output.pictures" };
@@ -198,7 +197,7 @@ static size_t check_pictures (const pg_scene *scene, const char *names)
     return count;
 }
 
-/* A scene whose dimension is at fault has been reported already. */
+/* Checks the names of pictures in a scene with faults, from which no problem can be built. */
 void pg_result_check_names (const pg_scene *scene)
 {
     char names[512];
@@ -212,8 +211,8 @@ void pg_result_check_names (const pg_scene *scene)
     check_pictures (scene, names);
 }
 
-/* Missing memory is the only failure that is not a fault of the scene. The reference is read
- * and thrown away: its faults are to come before the run begins, not after hours at its end. */
+/* Checks the whole section; missing memory is the only failure that is not a fault of the scene. The
+ * reference is read and dropped: its faults are to come before the run begins, not after hours at its end. */
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
 {
     char names[512], path[64];

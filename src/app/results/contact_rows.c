@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * contact.csv: what the faces of cracks, and surfaces opposite platens, bear, piece by piece, one row for
- * each at every row of history.csv. Runs without contact.kind and platens have none, nor have those in
- * explicit steps by short range, whose contacts are of points. */
+ * contact.csv: pressure, shear, gap and slip of crack faces in contact and of surfaces opposite platens,
+ * piece by piece, one row for each at every row of history.csv. Runs without contact.kind and platens have no
+ * such table, nor have explicit runs with short-range contact, which acts between points. */
 #include "results_private.h"
 
 static const char *const columns[] = { "step [1]",     "time [s]",      "load_factor [1]", "path [1]",
                                        "arc [m]",      "x [m]",         "y [m]",           "length [m]",
                                        "pressure [Pa]", "shear [Pa]",   "gap [m]",         "slip [m]",
                                        "status_code [1]", "platen_code [1]" };
-/* In space shear and slip are vectors, and pieces have an area and a normal. */
+/* Columns in 3D, where shear and slip are vectors, and pieces have an area and a normal. */
 static const char *const columns_space[] = {
     "step [1]",     "time [s]",     "load_factor [1]", "surface [1]",  "x [m]",         "y [m]",
     "z [m]",        "normal.x [1]", "normal.y [1]",    "normal.z [1]", "area [m2]",     "pressure [Pa]",
@@ -21,7 +21,7 @@ pg_status pg_result_contact_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
     char path[4096];
-    if (!from) PG_TRY (pg_result_remove (r, "contact.csv"));       /* of an earlier run */
+    if (!from) PG_TRY (pg_result_remove (r, "contact.csv"));       /* one of an earlier run */
     const pg_contact_setting *setting = &pg_solver_settled (r->solver)->contact;
     int explicit_ = (pg_solver_settled (r->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
         faces = setting->kind != PG_CONTACT_NONE && setting->search == PG_CONTACT_FACES;

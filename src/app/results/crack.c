@@ -1,26 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How much crack the broken bonds amount to. A plane with the normal n that cuts all bonds
- * across it cuts, per area, as many bonds of the points around it as sum_j |xi_j . n| / V_i
- * (V_i volume of such a point, xi_j its bonds). So each broken bond of point i stands for the
- * area
- *
- *   V_i / sum_j |xi_j . n|,
- *
- * and with a normal of any direction |xi . n| is |xi| times its mean: 1, 2/pi, 1/2 in 1, 2, 3
- * dimensions. This is an estimate: it is exact for one plane on average over its directions,
- * and parallel or smeared cracks count as often as they are.
- *
- * Where points fail, with all their bonds, a crack is a band of them, and the bonds that reach into it from
- * either side are cut as well: their count is that of several cracks. The band is about a horizon wide, from
- * which the energy that a point can store is derived too (mechanics/criterion/node_energy.c), so that a
- * failed point
+ * Area of new crack, estimated from the broken bonds. A plane with the normal n that cuts all bonds across it
+ * cuts, per area, as many bonds of the points around it as sum_j |xi_j . n| / V_i (V_i volume of such a
+ * point, xi_j its bonds). So each broken bond of point i stands for the area V_i / sum_j |xi_j . n|, and with
+ * a normal of any direction |xi . n| is |xi| times its mean: 1, 2/pi, 1/2 in 1, 2, 3 dimensions. It is exact
+ * for one plane on average over its directions, and parallel or smeared cracks count as often as they are. If
+ * points fail, with all their bonds, a crack is a band of them, and the bonds that reach into it from either
+ * side are cut as well: their count is that of several cracks. The band is about a horizon wide, which also
+ * defines the energy that a point can store (mechanics/criterion/node_energy.c), so that a failed point
  * stands for the area V_i / horizon. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Area of what has broken at one point of a bond set since `before` (of its own bonds), m2. */
+/* Area of the crack, m2, by the bonds of one point of a bond set that have broken since `before` (1 intact,
+ * for its own bonds). */
 static double area_of (const pg_problem *p, int set, size_t i, double volume, const unsigned char *before,
                        const unsigned char *now)
 {
@@ -40,7 +34,7 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
     return sum > 0 ? volume * (double) broken / (mean[dim] * sum) : 0;
 }
 
-/* Area that point i stands for if it has failed: it had bonds at the start and has none now. */
+/* Area, m2, that point i stands for if it has failed: it had bonds at the start and has none now. */
 static double area_of_point (const pg_problem *p, size_t i, const unsigned char *before,
                              const unsigned char *now)
 {
@@ -50,8 +44,8 @@ static double area_of_point (const pg_problem *p, size_t i, const unsigned char 
     return p->cloud.volume[i] / (p->form.approx.horizon * pg_cloud_ratio (&p->cloud, i));
 }
 
-/* Uses the bonds of evaluation points where there are some, else those of the points
- * themselves. What pre-cracks cut at the start is found anew for points with dead bonds. */
+/* Measures the area of new crack. Uses the bonds of evaluation points where there are some, else those of the
+ * points themselves. Which bonds pre-cracks cut at the start is found again for points with broken bonds. */
 pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -62,8 +56,8 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
         set = p->bonds.rows[PG_POINTS].n && !points ? PG_POINTS : PG_NODES;
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
-    if (pg_problem_removes (p)) return PG_OK;              /* bonds of what was removed are no crack */
-    if (r->tips.grows && state->paths) {                        /* known, not estimated */
+    if (pg_problem_removes (p)) return PG_OK;              /* bonds of removed points are no crack */
+    if (r->tips.grows && state->paths) {                        /* known from the facets, not estimated */
         r->crack.length = state->paths->length, r->crack.area = r->crack.length * p->cloud.thickness;
         r->crack.found = r->crack.area > 0;
         if (r->crack.found)
@@ -107,7 +101,7 @@ void pg_result_crack_column (const pg_result *r, char *out, size_t size)
     snprintf (out, size, r->problem->dim == 3 ? "crack.area [m^2]" : "crack.length [m]");
 }
 
-/* Of the state of the row: 0 while nothing has broken. */
+/* Measures the crack of the state at a row: 0 while nothing has broken. */
 pg_status pg_result_crack_row (pg_result *r, const pg_state *state, double *row)
 {
     pg_status status = PG_OK;

@@ -1,27 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Cracks that have grown as lines and triangles beside the fields: both faces of every piece, so that
- * programs that draw the body displaced show the crack open. The corner of a face takes the displacement (and
- * all other fields) of the nearest point that sees it: no crack lies between. From cracks.csv is known since
- * when a piece exists.
- *
- * In space the cracks of the scene are polygons and discs, which are drawn as fans of triangles about their
- * middle. */
+ * programs that draw the deformed body show the crack open. The corner of a face takes the displacement (and
+ * all other fields) of the nearest point that no crack separates from it. cracks.csv says since when a piece
+ * exists. In 3D the cracks of the scene are polygons and discs, which are drawn as fans of triangles about
+ * their centre. */
 #include "results_private.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Corners of faces are looked at from so far beside the crack, spacings; and from so far inside of the
- * piece, in parts of the way to its middle (of a line: its other end), for the next piece may go to either
+/* The search for the nearest point starts beside a corner: BESIDE spacings away from the crack, and WITHIN of
+ * the way to the middle of the piece (of a line: to its other end), since the next piece may go to either
  * side. */
 #define BESIDE 1e-3
 #define WITHIN 1e-2
 
-/* What lies between a place and the points. */
+/* Context of `hidden`: cracks that may lie between a position and the points. */
 typedef struct { const pg_problem *problem; const pg_cracks *cracks; } sight;
 
-/* Refuses points that a crack hides from the place (pg_refuse). */
+/* 1: a crack lies between the position and a point, which is then refused (pg_refuse). */
 static int hidden (void *context, const double *place, size_t point)
 {
     const sight *s = context;
@@ -29,8 +27,8 @@ static int hidden (void *context, const double *place, size_t point)
     return pg_cracks_cut (s->cracks, place, c->x + (size_t) c->dim * point, 1e-9 * c->h) != NULL;
 }
 
-/* The face of a piece on the side that the normal shows to (side 1) or on the other (-1). corner: its places,
- * dim x dim. */
+/* Makes the face of a piece on the side of its normal (side 1) or on the other (-1). corner: its vertices,
+ * dim x dim, m. */
 static void face_of (const sight *s, const pg_nearest *near, const double *corner, const double *normal,
                      int side, pg_crack_face *out)
 {
@@ -56,7 +54,7 @@ static void face_of (const sight *s, const pg_nearest *near, const double *corne
 /* A list of pieces with room for more. */
 typedef struct { pg_crack_face *piece; size_t n, capacity; } pieces;
 
-/* Both faces of a line or a triangle. */
+/* Appends both faces of a line or a triangle. */
 static pg_status put_faces (pieces *all, const sight *s, const pg_nearest *near, const double *corner,
                             const double *normal, double since)
 {
@@ -71,7 +69,7 @@ done:
     return status;
 }
 
-/* A segment, a triangle, or the fan of a polygon. */
+/* Appends a segment, a triangle, or a polygon as a fan of triangles. */
 static pg_status put_crack (pieces *all, const sight *s, const pg_nearest *near, const pg_crack *c,
                             double since)
 {
@@ -92,8 +90,8 @@ done:
     return status;
 }
 
-/* Time of the fields since when each piece exists, from the rows of cracks.csv; pieces without one have split
- * from a crack of the scene. */
+/* Reads since which time of the fields each piece exists, from the rows of cracks.csv; pieces without a row
+ * are parts of a crack of the scene: 0. */
 static pg_status read_since (const pg_result *r, size_t n, double *since)
 {
     pg_status status = PG_OK;
@@ -113,7 +111,7 @@ done:
     return status;
 }
 
-/* What is left between the triangles and the fronts, where the crack cuts nothing yet. */
+/* Appends the strips between the triangles and the fronts, where the crack does not cut bonds yet. */
 static pg_status put_fronts (pieces *all, const sight *s, const pg_nearest *near,
                              const pg_crack_surfaces *w, double since)
 {

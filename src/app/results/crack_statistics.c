@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the cracks of one entry; the copy borrows them. */
+/* Measures the cracks of one entry; the temporary list borrows them. */
 static pg_status measure_entry (pg_crack_statistics *out, const pg_cracks *all, size_t entry,
                                 const pg_scene *scene)
 {
@@ -22,8 +22,8 @@ done:
     return status;
 }
 
-/* Sets say something beside the whole only where there are several entries, and one of them has several
- * cracks. */
+/* Measures all cracks together, and those of each entry if there are several entries, one of them with
+ * several cracks. */
 pg_status pg_crack_statistics_measure (pg_crack_statistics *out, const pg_cracks *all, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -43,7 +43,8 @@ double pg_network_direction (const pg_network *n)
     return fmod (atan2 (n->axis[1], n->axis[0]) * 180 / acos (-1) + 180, 180);
 }
 
-/* Intensities have the names P21 and P32 of Dershowitz and Herda (1992): length per area, area per volume. */
+/* Writes one set of statistics. Intensities have the names P21 and P32 of Dershowitz and Herda (1992): length
+ * per area, area per volume. */
 static void write_network (pg_json *j, const pg_network *n, int dim)
 {
     pg_json_count (j, "count", n->n);
@@ -87,7 +88,7 @@ void pg_crack_statistics_json (pg_json *j, const char *name, const pg_crack_stat
     pg_json_shut (j);
 }
 
-/* Of a run: measured once, when its folder is opened. */
+/* Measures the cracks of a run once, when its folder is opened. */
 pg_status pg_result_network_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The load-displacement curve of a run: force with its sign over the mean displacement of what
- * is loaded; its picture, its peak and its stiffness. With event stepping the line is the
- * envelope (pg_envelope), and the path of events is drawn pale behind it. */
+ * The load-displacement curve of a run: force over mean displacement of the loaded set, both with sign; its
+ * picture, its peak and its stiffness. With event stepping the line is the envelope (pg_envelope), and the
+ * path of events is drawn pale behind it. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Columns of curve_more. */
+/* Columns of result_curve.more. */
 enum { STEP, TIME, FACTOR, UNJUDGED, FIRST_GAUGE };
 
-/* A message that is lost shows where the next one fails. */
+/* Largest value over all ranks; NAN if that fails, since the next message then reports the failure. */
 static double most_of_all (const pg_problem *p, double value)
 {
     return pg_cloud_most (&p->cloud, 1, &value) == PG_OK ? value : NAN;
 }
 
-/* How strongly a load acts along the axis k: the largest size of its pattern over its points; 1 where place
- * and time do not separate, or for the axis nearest to the first normal of a pressure; 0: not at all. */
+/* Strength of a load along the axis k: the largest size of its pattern over its points; 1 where position and
+ * time do not separate, or for the axis nearest to the first normal of a pressure; 0: none. */
 static double push_along (const pg_problem *p, const pg_load *load, int k)
 {
     double size = 0;
@@ -37,8 +37,8 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
     return most_of_all (p, size);
 }
 
-/* How far a support moves along the axis k at most: at t = 1, with stages of loading at the end of each. A
- * velocity is compared by what it moves in 1e-9 s, so that any displacement is preferred to it. */
+/* Largest displacement of a support along the axis k, m: at t = 1, with stages of loading at the end of each.
+ * A velocity counts with its displacement in 1e-9 s, so that any displacement is preferred to it. */
 static double farthest (const pg_problem *p, const pg_load *load, int k)
 {
     double size = 0;
@@ -51,7 +51,8 @@ static double farthest (const pg_problem *p, const pg_load *load, int k)
     return most_of_all (p, size);
 }
 
-/* How far a platen moves along the axis k at most, m: at t = 1, with stages of loading at the end of each. */
+/* Largest displacement of a platen along the axis k, m: at t = 1, with stages of loading at the end of
+ * each. */
 static double farthest_platen (const pg_problem *p, const pg_load *load, int k)
 {
     static const double anywhere[3] = { 0 };
@@ -61,7 +62,7 @@ static double farthest_platen (const pg_problem *p, const pg_load *load, int k)
     return size;
 }
 
-/* The stage at whose end a load first acts; 0: it does from the start. */
+/* Number of the stage at whose end a load first acts; 0: it acts from the start. */
 static size_t begins (const pg_problem *p, const pg_load *load)
 {
     size_t stage = 1;
@@ -71,15 +72,15 @@ static size_t begins (const pg_problem *p, const pg_load *load)
     return stage;
 }
 
-/* Supports that move points along axes, at which the curve looks first. */
+/* 1: the load is a support that moves points along axes; the curve prefers these. */
 static int moves (const pg_load *load)
 {
     return pg_load_prescribes (load) && pg_set_points (load->set) && !pg_load_rotates (load) && !load->turns;
 }
 
-/* The curve follows the prescribed component that moves most, else of the loads with a force the one that
- * comes last, as one presses a body that is confined; of several the first, along the axis in which it is
- * largest. */
+/* Chooses the load and axis of the curve: the prescribed displacement that is largest; without any, of the
+ * loads with a force the one that starts last, as one presses a body that is confined already; of several the
+ * first, along the axis in which it is largest. */
 void pg_result_curve_choose (pg_result *r)
 {
     result_curve *c = &r->curve;
@@ -128,7 +129,7 @@ done:
     return status;
 }
 
-/* The first n points of the curve, for a checkpoint. */
+/* Writes or reads the first n points of the curve in a checkpoint. */
 pg_status pg_result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     result_curve *c = &r->curve;

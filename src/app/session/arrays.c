@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* Values that a cloud cannot have. */
+/* Fails if a number, a coordinate, a volume or the thickness is none that a point cloud can have. */
 static pg_status check_points (int dim, size_t n, const double *x, const double *volume, double spacing,
                                double thickness)
 {
@@ -41,7 +41,7 @@ static int by_place (const void *a, const void *b)
     return p->point < q->point ? -1 : 1;
 }
 
-/* A bond between two points at one place has no length. */
+/* Fails if two points have the same position: a bond between them would have no length. */
 static pg_status check_twins (const pg_cloud *c)
 {
     pg_status status = PG_OK;
@@ -62,7 +62,7 @@ done:
     return status;
 }
 
-/* The nominal spacing of points without one, as that of points of a file: by the mean of the volumes. */
+/* Nominal spacing where none is given, m: from the mean volume, as for points of a file. */
 static double spacing_of (const pg_cloud *c)
 {
     double sum = 0;
@@ -106,7 +106,8 @@ done:
 }
 
 /* ---- shape functions ----------------------------------------------------------------------------------- */
-/* Number of a word in "a|b|c"; -1: it is none of them. NULL: the first. */
+/* Index of a word in a list such as "a|b|c"; -1: it is not in it; 0 for NULL, which stands for the first
+ * word. */
 static int number_of (const char *word, const char *words)
 {
     const char *at = words;
@@ -126,7 +127,7 @@ static pg_status read_word (int *out, const char *what, const char *word, const 
     return pg_error (PG_E_USAGE, PG_HERE, "%s is '%s': it must be one of %s", what, word, words);
 }
 
-/* The words of a scene's method as an approximation. */
+/* Turns a choice in words, as in `method` of a scene, into an approximation. */
 static pg_status choose (pg_approx *a, const pg_shape_choice *c, const pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -154,7 +155,7 @@ done:
     return status;
 }
 
-/* Each point as the own node of its place. */
+/* Makes the array of own nodes for evaluation at the points themselves: own[i] = i. */
 static pg_status own_nodes (int **own, size_t n)
 {
     pg_status status = PG_OK;

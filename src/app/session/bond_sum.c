@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Forces of bonds between the points of an array: sums, families, alive bits and the loop that sums, in one
+ * Forces of bonds between the points of an array: sums, families, alive mask and the bond loop in one
  * object. */
 #include "session_private.h"
 #include <math.h>
@@ -9,8 +9,8 @@ struct pg_bond_sum {
     pg_cloud  cloud;
     pg_sums  *sums;
     pg_family family;
-    double   *modulus;                                 /* calibrated, of each point, N/m^6 */
-    unsigned char *alive;                              /* an entry of the family each */
+    double   *modulus;                                 /* calibrated micromodulus of each point, N/m^6 */
+    unsigned char *alive;                              /* per entry of the family: 1 intact, 0 broken */
     pg_bond_loop  *loop;
 };
 
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* Frees a sum over bonds, also one that was made in part only; NULL is allowed. */
+/* Frees a sum over bonds, even if it was built in part only; *sum may be NULL. */
 void pg_bond_sum_free (pg_bond_sum **sum)
 {
     pg_bond_sum *s = *sum;
@@ -98,7 +98,7 @@ int pg_bond_sum_dim (const pg_bond_sum *s) { return s->cloud.dim; }
 
 const char *pg_bond_sum_name (const pg_bond_sum *s) { return pg_bond_loop_name (s->loop); }
 
-/* The entry of i in the family of j: neighbours ascend, and who is seen sees. */
+/* Index of i in the family of j, by bisection: neighbours ascend, and families are symmetric. */
 size_t session_mirror (const pg_family *f, int i, int j)
 {
     size_t low = f->start[j], high = f->start[j + 1];

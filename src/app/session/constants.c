@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Constants and limits of bonds from E, nu, G0 and horizon: those of theory, or those that a scene uses on a
- * square or cubic lattice, taken from the sums of a block of points that is wide enough for one whole
+ * square or cubic lattice, which follow from sums over a block of points that is wide enough for one whole
  * family. */
 #include "perigal/session.h"
 #include <math.h>
@@ -8,8 +8,7 @@
 
 static int dimension_of (pg_mode mode) { return mode == PG_LINE ? 1 : mode == PG_SOLID ? 3 : 2; }
 
-/* The first kernel of the list that is not zero at the horizon, which is that of bonds unless one is given.
- * */
+/* The default kernel of bond forces: the first in the catalogue that is not zero at the horizon. */
 static const pg_kernel *usual_kernel (void)
 {
     size_t i = 0;
@@ -61,7 +60,7 @@ done:
     return status;
 }
 
-/* 1: Poisson's ratio and kernel allow for micropolar bonds, of these moduli. */
+/* 1: Poisson's ratio and kernel allow for micropolar bonds; axial and shear are their moduli then. */
 static int has_beams (const pg_bond_choice *c, const pg_kernel *kernel, double *axial, double *shear)
 {
     return c->mode != PG_LINE && c->poisson <= pg_beam_poisson (c->mode) + 1e-9
@@ -69,13 +68,15 @@ static int has_beams (const pg_bond_choice *c, const pg_kernel *kernel, double *
                   == PG_OK;
 }
 
-/* What the sums of bonds make of constants: factors and energies of straight cuts. */
+/* Corrections of the constants of theory by sums over bonds: factor of the micromodulus; energies of a
+ * straight crack over those of theory (bond-based, state-based); the same for crack growth; sums of
+ * micropolar bonds. */
 typedef struct {
     double calibration, toughness, state_toughness, growth;
     pg_beam_sums beams;
 } factors;
 
-/* Of the lattice, as bond_force_rule chooses partial volumes there. */
+/* Measures the factors on a lattice, with partial volumes as bond_force_rule chooses them there. */
 static pg_status measure (factors *f, const pg_bond_choice *c, const pg_kernel *kernel)
 {
     pg_status status = PG_OK;
@@ -104,7 +105,8 @@ done:
     return status;
 }
 
-/* Of theory: an uncalibrated rule has the straight cut of theory; the points only have to be there. */
+/* Finds the factors of theory: the sums of an uncalibrated rule give the straight crack of theory, whatever
+ * the points. */
 static pg_status of_theory (factors *f, const pg_bond_choice *c, const pg_kernel *kernel)
 {
     pg_status status = PG_OK;
@@ -141,7 +143,7 @@ static void find_stretches (pg_bond_constants *out, const pg_bond_choice *c, con
     out->energy = G0 > 0 ? 0.5 * G0 / c->horizon : NAN;
 }
 
-/* Micropolar bonds, where Poisson's ratio and kernel allow for them. */
+/* Finds the constants of micropolar bonds; NAN where Poisson's ratio or kernel does not allow for them. */
 static void find_beams (pg_bond_constants *out, const pg_bond_choice *c, const pg_kernel *kernel,
                         const factors *f)
 {

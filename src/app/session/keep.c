@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The state of a session as a block of bytes: a head that says whose it is, then every piece that the solver
- * keeps, each with its name and length, then a sum over all of it, which is compared before anything is
- * used. */
+ * The state of a session as a block of bytes: a head that names scene and points, then every piece that the
+ * solver keeps, each with its name and length, then a checksum over all of it, which is compared before
+ * anything is used. */
 #include "session_private.h"
 #include <string.h>
 
 enum { HEAD = 32, HASH = 64 };
 static const char magic[HEAD] = "perigal state " PG_VERSION;
 
-/* A block that grows, or that is read. */
+/* A block of n bytes that grows when written; `at` is the position of reading. */
 typedef struct { unsigned char *byte; size_t n, cap, at; } block;
 
 static pg_status put (block *b, size_t bytes, const void *data)
@@ -71,7 +71,8 @@ static pg_status keep_bytes (void *m, const char *name, size_t n, void *value)
 /* ---- head ---------------------------------------------------------------------------------------------- */
 typedef struct { char magic[HEAD], scene[HASH]; uint64_t points, begun; } head;
 
-/* Whose state it is: version, scene with overrides, places and volumes of the points. */
+/* Makes the head by which a state is recognized: version, scene with overrides, positions and volumes of the
+ * points. */
 static head head_of (const pg_session *s)
 {
     head h = { .begun = (uint64_t) s->begun };
@@ -97,7 +98,8 @@ done:
 }
 
 /* ---- save, restore ------------------------------------------------------------------------------------- */
-/* A solver that has not begun has nothing to remember: only what was set of the state. */
+/* Keeps the state of a session before its first step: the solver has nothing to keep yet, only what was
+ * set. */
 static pg_status keep_start (pg_state *state, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -133,7 +135,7 @@ done:
     return status;
 }
 
-/* Into a new solver and state, which take the place of those at hand when all has been read. */
+/* Reads into a new solver and state, which replace those of the session when all has been read. */
 pg_status pg_session_restore (pg_session *s, size_t bytes, const void *in)
 {
     pg_status status = PG_OK;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The linear system of a scene as matrices and vectors of one's own: what the force of the problem makes of
- * it, copied. The force is made anew for that, so that a run that goes on beside it does not notice. */
+ * The linear system of a scene as matrices and vectors that belong to the caller: copies of those of the
+ * problem's force. The force is created anew for that, so that a run that uses the problem is not
+ * disturbed. */
 #include "perigal/session.h"
 #include <math.h>
 #include <string.h>
 
-static const double nothing = 1e-12;                   /* of the mean diagonal: no stiffness */
+/* share of the mean diagonal below which an unknown has no stiffness */
+static const double nothing = 1e-12;
 
-/* A copy of a matrix. */
+/* Copies a matrix. */
 static pg_status copy_matrix (pg_sparse *out, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -21,7 +23,7 @@ done:
 }
 
 /* ---- constraints --------------------------------------------------------------------------------------- */
-/* The unknowns that nothing resists: 1 each. */
+/* Marks with 1 the unknowns that have no stiffness (diagonal of K about zero). */
 static pg_status find_idle (unsigned char **out, const pg_sparse *K)
 {
     pg_status status = PG_OK;
@@ -38,7 +40,7 @@ done:
     return status;
 }
 
-/* 1: everything that column j of T moves is idle. */
+/* 1: all unknowns in column j of the basis T are idle. */
 static int moves_idle (const pg_sparse *T, size_t j, const unsigned char *idle)
 {
     for (long p = T->start[j]; p < T->start[j + 1]; p++) if (!idle[T->row[p]]) return 0;
@@ -66,7 +68,7 @@ done:
     return status;
 }
 
-/* Is every column of T one unknown? Then these are listed. */
+/* If every column of T selects one unknown, sets `selects` and lists these unknowns in `free`. */
 static pg_status list_free (pg_equations *e)
 {
     pg_status status = PG_OK;
@@ -80,7 +82,7 @@ done:
 }
 
 /* ---- displacement of the points ------------------------------------------------------------------------ */
-/* Unknowns that are the displacements themselves: rotations are passed over. */
+/* Makes N for unknowns that are the displacements themselves: it picks them and leaves out rotations. */
 static pg_status take_displacements (pg_equations *e, size_t n)
 {
     pg_status status = PG_OK;
@@ -98,14 +100,14 @@ done:
     return status;
 }
 
-/* The shape functions of nodes by columns: entry (point, node), the same for every component. Columns of a
- * node follow each other, and points ascend, and with them the rows of every column. */
+/* Makes N from the shape functions at nodes, by columns: entry (point, node), equal for every component.
+ * Columns of a node follow each other; points ascend, and so do the rows of every column. */
 static pg_status take_values (pg_equations *e, const pg_rows *rows)
 {
     pg_status status = PG_OK;
     size_t dim = (size_t) e->dim, bonds = rows->family.start[rows->n];
     const int *node = rows->family.node;
-    long *next = NULL;                                 /* where the next entry of each column goes */
+    long *next = NULL;                                 /* next free entry of each column */
     PG_TRY (pg_sparse_create (&e->N, rows->n * dim, e->n, bonds * dim, 0));
     PG_ALLOC (next, e->n);
     for (size_t b = 0; b < bonds; b++)
@@ -122,11 +124,11 @@ done:
     return status;
 }
 
-/* As the force evaluates them: with the bonds that live. */
+/* Makes N from shape functions evaluated as the force does: with the intact bonds only. */
 static pg_status evaluate_nodes (pg_equations *e, const pg_problem *p, const pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_rows rows = p->bonds.rows[PG_NODES];                  /* places and families are borrowed */
+    pg_rows rows = p->bonds.rows[PG_NODES];                  /* positions and families are borrowed */
     rows.N = rows.dN = rows.w = NULL, rows.at = NULL, rows.grade = NULL;
     PG_TRY (pg_rows_values (&rows));
     PG_TRY (p->form.approx.type->evaluate (&p->form.approx, &p->cloud, &rows,
@@ -139,7 +141,7 @@ done:
 }
 
 /* ---- all of it ----------------------------------------------------------------------------------------- */
-/* Loads, and where the unknowns are held. */
+/* Takes the load vector f and the prescribed values g at load factor or time t. */
 static pg_status take_vectors (pg_equations *e, const pg_force_type *force, void *self, double t)
 {
     pg_status status = PG_OK;
@@ -154,7 +156,7 @@ done:
     return status;
 }
 
-/* The unknowns of a point, as solvers count them. */
+/* Number of unknowns of a point, rotations included. */
 static int count_unknowns (const pg_force_type *force, const void *self)
 {
     pg_field field[8];

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A scene that another program advances step by step: what `perigal run` does, without its files. */
+ * A scene that another program advances step by step: does what `perigal run` does, but writes no files. */
 #include "session_private.h"
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
 /* ---- open, close --------------------------------------------------------------------------------------- */
-/* Is there the memory that a run of it needs? Faults of the scene are reported when the problem is built. */
+/* Fails if the run needs more memory than there is. Faults of the scene are reported later, when the problem
+ * is built. */
 static pg_status afford (const char *path, size_t nset, const char *const *set)
 {
     pg_status status = PG_OK;
@@ -25,7 +26,7 @@ done:
     return status;
 }
 
-/* All faults of a scene at once, as the program finds them. */
+/* Builds the problem, and reports all faults of a scene at once, as `perigal run` does. */
 static pg_status build (pg_session *s, int threads)
 {
     pg_status status = PG_OK;
@@ -41,7 +42,7 @@ done:
     return status;
 }
 
-/* A solver with the state that it starts from. */
+/* Creates a solver and the state that it starts from. */
 pg_status session_begin (const pg_session *s, pg_solver **solver, pg_state **state)
 {
     pg_status status = PG_OK;
@@ -65,7 +66,7 @@ pg_status pg_session_open (pg_session **out, const char *path, size_t nset, cons
     PG_TRY (build (s, threads < 1 ? 1 : threads));
     PG_TRY (session_begin (s, &s->solver, &s->state));
     PG_TRY (pg_patch_refuse (s->problem, s->scene));
-    s->options.scene = NULL;                           /* its faults are settled */
+    s->options.scene = NULL;                           /* the scene has no faults left to report */
     *out = s;
     s = NULL;
 done:
@@ -73,7 +74,7 @@ done:
     return status;
 }
 
-/* Frees a session, also one that was made in part only; NULL is allowed. */
+/* Frees a session, even if it was built in part only; *session may be NULL. */
 void pg_session_close (pg_session **session)
 {
     pg_session *s = *session;
@@ -116,7 +117,7 @@ done:
     return status;
 }
 
-/* Before the first step the force has seen no bonds yet. */
+/* Returns a field at the points. Before the first step the force does not know yet which bonds are broken. */
 pg_status pg_session_field (pg_session *s, const char *name, int *components, const char **unit,
                             const double **value)
 {
@@ -160,7 +161,7 @@ done:
     return status;
 }
 
-/* Number of a bond between points as its other end has it; SIZE_MAX: that end does not see it. */
+/* Number of the same bond as seen from its other end; SIZE_MAX: it is not in the family of that end. */
 static size_t other_end (const pg_problem *p, size_t bond)
 {
     int set;

@@ -11,12 +11,12 @@ struct pg_session {
     pg_solver  *solver;
     pg_state   *state;
     int         begun;                                 /* 1: a step was tried, or a state read back */
-    pg_step     step;                                  /* the last one */
-    double     *field;                                 /* the field asked for last (points x 6) */
+    pg_step     step;                                  /* the last step */
+    double     *field;                                 /* the field asked for last (points x 6 values) */
 };
 
-/* The entry of point i in the family of point j: neighbours ascend. If j does not see i, some other entry of
- * j, which must see somebody. */
+/* Index of point i in the family of point j, whose neighbours ascend. If i is no neighbour of j: some other
+ * entry of j, whose family must not be empty. */
 size_t session_mirror (const pg_family *f, int i, int j);
 /* A new solver for the session's problem and the state that it starts from. */
 pg_status session_begin (const pg_session *s, pg_solver **solver, pg_state **state);

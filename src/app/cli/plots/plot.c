@@ -47,7 +47,7 @@ static const char usage[] =
     "  --unit        meshes: of the lengths in the file;  --sets: sets of sides and nodes in colours\n"
     "  --above       3D views: only points whose value is at least this, the body grey behind them\n";
 
-/* A finite number. */
+/* Reads a finite number; returns 0 for anything else. */
 static int number_of (const char *text, double *value)
 {
     char *end;
@@ -65,7 +65,7 @@ static int place_of (const char *word, const char *names)
 }
 
 /* ---- options ---------------------------------------------------------------------------------------- */
-/* A number of at least `low`. */
+/* Reads a number of at least `low`. */
 static pg_status read_number (const char *name, const char *text, double low, double *out)
 {
     pg_status status = PG_OK;
@@ -75,8 +75,8 @@ done:
     return status;
 }
 
-/* Up to `most` steps "3,5,8"; negative ones count from the end. Whether they exist is known
- * only when the result is open (count_steps). */
+/* Reads up to `most` steps "3,5,8"; negative ones count from the end. Whether they exist is known only when
+ * the result is open (count_steps). */
 static pg_status read_steps (plot_request *q, const char *name, const char *text, int most)
 {
     pg_status status = PG_OK;
@@ -96,7 +96,7 @@ done:
     return status;
 }
 
-/* --step N or all. */
+/* Reads --step: N or "all". */
 static pg_status read_step (plot_request *q, const char *text)
 {
     q->all = strcmp (text, "all") == 0;
@@ -283,7 +283,7 @@ static void cut_result (char *path)
     if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
 }
 
-/* What goes with a movie. */
+/* Checks that the other options go with --movie. */
 static pg_status check_movie (const plot_request *q)
 {
     pg_status status = PG_OK;
@@ -347,7 +347,7 @@ int pg_cli_plot (int argc, char **argv)
             PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
         if (!q.field) q.field = "damage";
         PG_TRY (pg_writer_readable (q.directory));
-        PG_TRY (pg_exodus_join (q.directory, 0));          /* of ranks whose run has not ended */
+        PG_TRY (pg_exodus_join (q.directory, 0));          /* parts of ranks whose run has not ended */
         PG_TRY (q.list ? pg_plot_list (&q) : pg_plot_field (&q));
     }
 done:

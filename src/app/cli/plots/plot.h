@@ -5,17 +5,17 @@
 #include "perigal/output.h"
 #include "perigal/picture.h"
 
-/* The command; argv[0] is "plot"; returns the exit code. */
+/* Runs the command; argv[0] is "plot"; returns the exit code. */
 int pg_cli_plot (int argc, char **argv);
 
-/* What the command line of a picture of a field asks for. */
+/* Longest path; most steps of one picture. */
 enum { PLOT_PATH = 4096, PLOT_STEPS = 64 };
 /* What the command line of a picture of a field asks for. */
 typedef struct {
     /* Result folder, or a mesh file. */
     char *directory;
-    /* field without its component; part: yy of "stress.yy"; component: of --component or of
-     * the field; out: file; look: the view or the section in words, for names. */
+    /* field: its name without the component; part: yy of "stress.yy"; component: of --component or of the
+     * field; out: file to write; look: the view or the section in words, for names of files. */
     const char *field, *part, *component, *out, *look;
     /* "stress" of "stress.yy". */
     char   name[128];
@@ -40,13 +40,14 @@ pg_status pg_plot_field (plot_request *q);
 /* Prints a line for each step of the result: its number and its load or time. */
 pg_status pg_plot_list (const plot_request *q);
 
-/* Of a step of event stepping: events so far and load factor, from FOLDER/history.csv; returns
- * 0 if that is not known (plot_stage.c). */
+/* Finds for a step of event stepping the number of events so far and the load factor, from
+ * FOLDER/history.csv; returns 0 if that is not known (plot_stage.c). */
 int pg_plot_event (const char *folder, double step, long *events, double *factor);
 
 /* Draws a mesh file (plot_mesh.c). */
 pg_status pg_plot_mesh (const plot_request *q);
-/* Draws a scene that has not run (plot_scene.c); 1: the file is one, by its name. */
+/* Draws a scene that has not run (plot_scene.c); the second function is 1 if a file is a scene, by its
+ * name. */
 pg_status pg_plot_scene (const plot_request *q);
 int pg_plot_is_scene (const char *path);
 /* 1 for a regular file. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or
- * of other tables, as a chart. Of runs with event stepping the line is the envelope
- * (pg_envelope) with the path of events pale behind it, where both columns grow with the load;
- * the scene in the folder says whether they do. */
+ * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables,
+ * as a chart. For runs with event stepping the line is the envelope (pg_envelope), with the path of all
+ * events pale behind it, where both columns grow with the load; the scene in the folder says whether they
+ * do. */
 #include "plot.h"
 #include "perigal/study.h"
 #include "perigal/compare.h"
@@ -48,11 +48,12 @@ typedef struct {
     /* Labels "name (unit)" of x and y; name in the legend. */
     char    column[2][CELL], name[CELL];
     run_kind kind;
-    /* Number of places of the line that is drawn (the rows, or their envelope), and where its peak is. */
+    /* Number of vertices of the line that is drawn (the rows, or their envelope), and coordinates of its
+     * peak. */
     size_t  nline;
     double *line[2], peak[2];
-    /* The step of the peak that the report of the run names for this y, of rows in which every crack tip was
-     * judged; NAN: it names none. step: of each row (n). */
+    /* Step of the peak that the report of the run names for this y, among rows in which every crack tip was
+     * checked; NAN: it names none. step: step of each row (n). */
     double  named, *step;
 } run_curve;
 
@@ -69,7 +70,7 @@ static const char usage[] =
     "legend shows --labels, else the names of the folders. --markers: a marker on every row, and no "
     "envelope.\n";
 
-/* 1 for a table itself instead of a folder with history.csv. */
+/* 1 if the path is a table itself, not a folder with history.csv. */
 static int is_table (const char *path)
 {
     size_t n = strlen (path);
@@ -160,7 +161,7 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
     out->events = pg_solver_is (kind, PG_SOLVER_EVENTS);
     for (int k = 0; k < 2; k++) {
         if (starts_elsewhere (scene, wanted[k])) out->at_rest = out->events = 0;
-        /* what belongs to a length of the crack is no path of load and displacement */
+        /* crack lengths and areas do not belong to the path of load and displacement */
         if (strncmp (wanted[k], "tip.", 4) == 0 || is_one_of (wanted[k], "crack.length|crack.area"))
             out->at_rest = out->events = 0;
         if (is_one_of (
@@ -172,8 +173,8 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
 }
 
 /* ---- one run ------------------------------------------------------------------------------------------- */
-/* The step of the peak in report.json, where it is that of a column of forces: the load and the axis of the
- * curve are named before it. */
+/* Returns the step of the peak in report.json if `wanted` is the column of forces that the report takes it
+ * from (load and axis stand before the peak), else NAN. */
 static double named_peak (const char *directory, const char *wanted)
 {
     double step = NAN;
@@ -219,7 +220,8 @@ done:
     return status;
 }
 
-/* The peak: place `peak` of the line, or the row that the report names. */
+/* Sets the peak: vertex `peak` of the line, or the row of the step that the report names, with largest
+ * |y|. */
 static void choose_peak (run_curve *c, size_t peak)
 {
     size_t row = SIZE_MAX;
@@ -228,10 +230,9 @@ static void choose_peak (run_curve *c, size_t peak)
     for (int k = 0; k < 2; k++) c->peak[k] = row == SIZE_MAX ? c->line[k][peak] : c->at[k][row];
 }
 
-/* The line that is drawn: the rows, from the origin on where the run starts unloaded; of a
- * path of events on which the load factor falls and rises, its envelope. Without such a fall
- * the path is its own envelope. c->peak: the place of largest |y|, of the rows of the step that the report
- * names where it does. */
+/* Makes the line that is drawn: the rows, preceded by the origin if the run starts unloaded; or, of a path of
+ * events on which the load factor falls and rises, the envelope. Without such a fall the path is its own
+ * envelope. c->peak: point of largest |y|, or among the rows of the step that the report names, if any. */
 static pg_status choose_line (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -263,8 +264,8 @@ static int has_peak (const char *column)
     return 0;
 }
 
-/* A value with the unit of its column, such as "-15.03 MN"; units that take no prefix are
- * written behind the number. */
+/* Writes a value with the unit of its column, such as "-15.03 MN"; units that take no prefix are written
+ * behind the number. */
 static void quantity_of (const char *column, double value, char *out, size_t size)
 {
     const char *open = strrchr (column, '(');
@@ -274,7 +275,7 @@ static void quantity_of (const char *column, double value, char *out, size_t siz
     else snprintf (out, size, "%.4g%s%s", value, *unit ? " " : "", unit);
 }
 
-/* The last part of a path without slashes at its end, which names a run in the legend. */
+/* Writes the last part of a path, without slashes at its end; it names a run in the legend. */
 static void name_of_folder (const char *path, char *out, size_t size)
 {
     size_t end = strlen (path);
@@ -284,8 +285,8 @@ static void name_of_folder (const char *path, char *out, size_t size)
     snprintf (out, size, "%.*s", (int) (end - start), path + start);
 }
 
-/* Names in the legend: the labels, one per folder, or the folders (with the whole path where
- * two have one name). PG_E_USAGE if the number of labels is not that of the folders. */
+/* Sets the names in the legend: the labels, one per folder, or the folders (with the whole path where two
+ * have one name). PG_E_USAGE if the number of labels is not that of the folders. */
 static pg_status name_curves (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -332,8 +333,8 @@ static void change_signs (const request *q, run_curve *c)
 }
 
 /* ---- the picture --------------------------------------------------------------------------------------- */
-/* DIR/Y-X.png of the first folder, with other characters than letters, digits, - and _
- * replaced by _; beside a table the current folder. */
+/* Names the picture: DIR/Y-X.png in the first folder, with characters other than letters, digits, - and _
+ * replaced by _; for a table the current folder. */
 static void name_picture (const request *q, char *path, size_t size)
 {
     char name[128];
@@ -345,8 +346,8 @@ static void name_picture (const request *q, char *path, size_t size)
     else snprintf (path, size, "%s/%s.png", q->directory[0], name);
 }
 
-/* A ring at the peak of every curve; the value stands beside it, or in the legend if there are
- * several curves. note: text for a single curve, which must live as long as the marks. */
+/* Marks the peak of every curve with a ring; the value stands beside it, or in the legend if there are
+ * several curves. note: text for a single curve, which must stay valid as long as the marks. */
 static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, char *note, size_t size)
 {
     char value[CELL / 4], place[CELL / 4];
@@ -361,7 +362,7 @@ static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, cha
     }
 }
 
-/* All runs; they must agree in the units of both columns, since one pair of axes serves all. */
+/* Reads all runs; they must agree in the units of both columns, since one pair of axes serves all. */
 static pg_status read_all (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -380,7 +381,7 @@ done:
     return status;
 }
 
-/* Reads, chooses the lines, draws. Signs are changed before the envelope is sought, which
+/* Reads the runs, chooses the lines and draws them. Signs are changed before the envelope is computed, which
  * depends on them. Runs of one or two rows get markers, since a line would not be seen. */
 static pg_status draw (const request *q, const char *path)
 {
@@ -433,7 +434,7 @@ static int is_axes (const char *text)
     return text && (strcmp (text, "x") == 0 || strcmp (text, "y") == 0 || strcmp (text, "xy") == 0);
 }
 
-/* --negate and --abs: of y unless axes follow. Both on one axis are refused. */
+/* Applies --negate or --abs to the axes that follow, y if none do. Both on one axis are refused. */
 static pg_status read_sign (request *q, const char *name, const char *axes)
 {
     pg_status status = PG_OK;
@@ -483,7 +484,7 @@ done:
     return status;
 }
 
-/* Words that are no options are folders or tables. */
+/* Reads the command line; words that are no options are folders or tables. */
 static pg_status read_arguments (request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;

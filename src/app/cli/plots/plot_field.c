@@ -16,10 +16,10 @@
 /* A result that is being drawn. */
 typedef struct {
     pg_cloud cloud;
-    /* The copy that the run left; NULL if there is none. */
+    /* The copy of the scene that the run left; NULL if there is none. */
     pg_scene *scene;
     pg_cracks cracks;
-    /* The shapes of the body, and its lattice where the scene has cells: staircase. */
+    /* The shapes of the body, and its lattice if cells are whole (`cells: staircase`). */
     pg_body  body;
     pg_lattice lattice;
     pg_outline outline;
@@ -33,12 +33,12 @@ typedef struct {
     double  *time;
     /* Component of the field that is drawn, number of its components; norm = 1: its magnitude. */
     int      component, components, norm;
-    /* On the colour bar. */
+    /* Name and unit on the colour bar. */
     char     name[128], unit[16];
 } source;
 
-/* A step: values (n), displacements (n x dim), values that select points (n), damage (n); the cracks, where
- * they have grown (n = 0: those of the scene); title. */
+/* A step: values (n), displacements, m (n x dim), values that select points (n), damage (n); the grown cracks
+ * (none: those of the scene are drawn); title. */
 typedef struct { double *value, *u, *select, *damage; pg_cracks cracks; char title[64]; } stage;
 
 /* ---- components ------------------------------------------------------------------------------------- */
@@ -60,7 +60,7 @@ static const char *component_names (int dim, int m)
     return dim == 3 && m == 6 ? "xx|yy|zz|xy|yz|zx" : "";
 }
 
-/* "2" becomes 2; -1 for anything else, or `most` and more. */
+/* Reads an index from 0 to most - 1; -1 for anything else. */
 static int number_of (const char *text, int most)
 {
     char *end;
@@ -75,7 +75,7 @@ static int component_of (const char *wanted, const char *names, int m)
     return k >= 0 ? k : number_of (wanted, m);
 }
 
-/* "|displacement|", "stress_{yy}", "field 2": what the colour bar shows. */
+/* Names the component on the colour bar: "|displacement|", "stress_{yy}", "field 2". */
 static void name_component (source *s, const char *field, const char *names)
 {
     int m = s->components;
@@ -88,8 +88,8 @@ static void name_component (source *s, const char *field, const char *names)
     }
 }
 
-/* The component that is asked for by name or number; by default the magnitude of a vector and
- * xx of a tensor. Also the name on the colour bar. */
+/* Chooses the component that is asked for by name or number, by default the magnitude of a vector and xx of a
+ * tensor, and its name on the colour bar. */
 static pg_status choose_component (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -119,8 +119,8 @@ static double magnitude (const double *v, int dim, int m, double shear)
 }
 
 /* ---- reading ------------------------------------------------------------------------------------------- */
-/* Where the body is, from the scene; points that come from files have a surface only by shapes. With whole
- * cells (staircase) the lattice is built again. */
+/* Reads the outline of the body from the scene; a body of points from a file has one only if it has shapes.
+ * If cells are whole (staircase) the lattice is built again. */
 static void read_outline (source *s)
 {
     pg_cloud cloud = { 0 };
@@ -146,8 +146,8 @@ static int is_stored (const plot_request *q, const char *name)
     return found;
 }
 
-/* The scene that the run copied, with its pre-cracks; without one the picture has none. Values
- * that --set replaced are applied if they can be read back. */
+/* Reads the copy of the scene, with its pre-cracks; without one the picture has none. Values that --set
+ * replaced are applied if they can be read back. */
 static void read_scene (const plot_request *q, source *s)
 {
     char path[PLOT_PATH];
@@ -159,7 +159,7 @@ static void read_scene (const plot_request *q, source *s)
     read_outline (s);
 }
 
-/* Are the nodes of the mesh of the run, as its files are today, the points of the result? */
+/* 1: the nodes of the mesh of the run, as its files are today, are the points of the result. */
 static int is_same_mesh (const plot_request *q, source *s)
 {
     pg_scene *scene = NULL;
@@ -174,7 +174,7 @@ static int is_same_mesh (const plot_request *q, source *s)
     return same;
 }
 
-/* Is no point damaged in the steps that are drawn? */
+/* Sets *whole to 0 if a point is damaged in the steps that are drawn. */
 static pg_status nothing_broke (const plot_request *q, const source *s, int *whole)
 {
     pg_status status = PG_OK;
@@ -192,9 +192,9 @@ done:
     return status;
 }
 
-/* The mesh of the run, unless it is gone or its nodes are not the points any more (to 1e-6 of
- * the spacing). Fields are drawn on its elements unless something broke in the steps that are
- * shown, since these would hide the crack; damage itself is always drawn by points. */
+/* Reads the mesh of the run, unless it is gone or its nodes are no longer the points (to 1e-6 of the
+ * spacing). Fields are drawn on its elements unless bonds broke in the steps that are shown, since elements
+ * would hide the crack; damage is always drawn by points. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -210,8 +210,8 @@ done:
     return status;
 }
 
-/* Opens the result: points, steps, components and unit of the field; keys for 3D views are
- * refused for others. The copied scene is optional. */
+/* Opens the result: points, steps, components and unit of the field; options for 3D views are refused in 1D
+ * and 2D. The copied scene is optional. */
 static pg_status open_source (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -233,7 +233,7 @@ done:
     return status;
 }
 
-/* Frees everything; may be called for a result that was only half opened. */
+/* Frees everything, even if the result was opened in part only. */
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);
@@ -244,8 +244,8 @@ static void close_source (source *s)
     pg_cloud_clear (&s->cloud);
 }
 
-/* "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor 0.5"; without
- * the scene, which says what the time means, "step 3, time 0.5". */
+/* Writes the title of a step: "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor
+ * 0.5"; without the scene, which says what the time means, "step 3, time 0.5". */
 static void name_stage (const plot_request *q, const source *s, int step, char *text, size_t size)
 {
     const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "",
@@ -302,8 +302,8 @@ static void drop_stage (stage *g)
 }
 
 /* ---- drawing ---------------------------------------------------------------------------------------- */
-/* DIR/FIELD.COMPONENT_VIEW_0007.png as in output.pictures, or --out with the number before its
- * ending; number -1: without one. */
+/* Names the picture: DIR/FIELD.COMPONENT_VIEW_0007.png as in output.pictures, or --out with the number before
+ * its ending; number -1: without one. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
 {
     char name[160] = "", count[16] = "";
@@ -340,11 +340,11 @@ done:
     return status;
 }
 
-/* The final range: blue to red where both signs occur to more than a trace (2 % of the
- * larger), damage 0 to 1, or what was given; logarithmic colours find their own. */
+/* Sets the final range of the colours: blue to red where both signs occur to more than a trace (2 % of the
+ * larger), damage 0 to 1, or the range given; logarithmic colours find their own. */
 static void settle_range (const plot_request *q, pg_picture_style *style)
 {
-    /* not for a trace of the other sign */
+    /* no diverging colours for a trace of the other sign */
     style->diverging = fmin (-style->low, style->high) > 0.02 * fmax (-style->low, style->high);
     if (style->diverging) style->high = fmax (-style->low, style->high), style->low = -style->high;
     if (strcmp (q->field, "damage") == 0 && !style->log) style->low = 0, style->high = 1;
@@ -354,8 +354,8 @@ static void settle_range (const plot_request *q, pg_picture_style *style)
         style->diverging &= style->low == -style->high;
 }
 
-/* "damage, iso (damage >= 0.35), time 2 ms, displacements x 10": what the picture shows, as far as it is
- * not usual. surfaces: cracks that have grown are drawn themselves, whatever the damage is. */
+/* Writes the title, such as "damage, iso (damage >= 0.35), time 2 ms, displacements x 10": what is shown, as
+ * far as it is not the default. surfaces: grown cracks are drawn as surfaces, whatever the damage is. */
 static void write_title (const plot_request *q, const source *s, const pg_picture_style *style, int surfaces,
                          const char *stage_title, char *title, size_t size)
 {
@@ -370,14 +370,14 @@ static void write_title (const plot_request *q, const source *s, const pg_pictur
         snprintf (title + used, size - (size_t) used, ", displacements \xc3\x97 %g", style->magnify);
 }
 
-/* Label of the colour bar: "|stress_{xx}| (Pa)" where decades of the magnitude are shown. */
+/* Writes the label of the colour bar: "|stress_{xx}| (Pa)" where decades of the magnitude are shown. */
 static void write_label (const source *s, const pg_picture_style *style, char *label, size_t size)
 {
     const char *bar = style->log && !s->norm ? "|" : "", *unit = s->unit;
     snprintf (label, size, "%s%s%s%s%s%s", bar, s->name, bar, unit[0] ? " (" : "", unit, unit[0] ? ")" : "");
 }
 
-/* The states of n steps; several have titles of their own, as bars have. */
+/* Fills the panels of n steps; if there are several (and in 1D) each has a title of its own. */
 static void fill_panels (pg_panel *panel, const plot_request *q, const source *s, size_t n, const stage *g)
 {
     int titled = n > 1 || s->cloud.dim == 1;
@@ -388,8 +388,8 @@ static void fill_panels (pg_panel *panel, const plot_request *q, const source *s
     }
 }
 
-/* Draws n steps as one picture, with title and label; or only measures the frame of one step. Only single
- * steps are drawn on elements. */
+/* Draws n steps as one picture, with title and label; with `measured` it only measures the frame of one step.
+ * Only single steps are drawn on elements. */
 static pg_status draw_at (const char *path, pg_reach *measured, const plot_request *q, const source *s,
                           size_t n, const stage *g, const pg_picture_style *given)
 {
@@ -438,9 +438,9 @@ static int movie_steps (const plot_request *q, const source *s)
 }
 static int movie_step (const plot_request *q, int k) { return q->panels ? q->step[k] : k; }
 
-/* One range of colours and, of deformed bodies, one frame for all pictures, so that nothing jumps. Steps
- * are read twice, which keeps one of them in memory at a time; each picture passes through a file beside
- * the movie. */
+/* Draws a movie with one range of colours and, for deformed bodies, one frame for all pictures, so that
+ * nothing jumps. Steps are read twice, so that one of them is in memory at a time; each picture passes
+ * through a file beside the movie. */
 static pg_status draw_movie (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
@@ -477,8 +477,8 @@ done:
     return status;
 }
 
-/* Every step as a picture of its own. Steps are read twice, once for the common range of the
- * colours and once to be drawn, which keeps one of them in memory at a time. */
+/* Draws every step as a picture of its own. Steps are read twice, once for the common range of the colours
+ * and once to be drawn, so that one of them is in memory at a time. */
 static pg_status draw_each (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
@@ -502,8 +502,7 @@ done:
     return status;
 }
 
-/* Several steps as panels of one picture. The range of the colours is then found from what the
- * panels show. */
+/* Draws several steps as panels of one picture. The range of the colours is that of what the panels show. */
 static pg_status draw_together (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
@@ -517,7 +516,7 @@ static pg_status draw_together (const plot_request *q, const source *s)
         PG_TRY (widen_range (q, s, &g[k], &style, &found));
     }
     settle_range (q, &style);
-    if (!q->ranged && strcmp (q->field, "damage") != 0) style.low = style.high = 0;  /* of what is shown */
+    if (!q->ranged && strcmp (q->field, "damage") != 0) style.low = style.high = 0;  /* found when drawn */
     PG_TRY (draw (q, s, (size_t) q->steps, g, &style, -1));
 done:
     for (int k = 0; g && k < q->steps; k++) drop_stage (&g[k]);
@@ -544,8 +543,8 @@ done:
     return status;
 }
 
-/* The body is looked for after the steps are known, since the field damage of these steps
- * decides how it is drawn. */
+/* Draws a field. The mesh of the body is read after the steps are known, since their damage decides how it is
+ * drawn. */
 pg_status pg_plot_field (plot_request *q)
 {
     pg_status status = PG_OK;
@@ -559,7 +558,7 @@ done:
     return status;
 }
 
-/* Steps are counted from 0, as --step takes them. */
+/* Lists the steps, counted from 0, as --step takes them. */
 pg_status pg_plot_list (const plot_request *q)
 {
     pg_status status = PG_OK;

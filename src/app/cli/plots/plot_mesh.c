@@ -18,21 +18,21 @@ typedef struct {
     char    label[96];
 } fem;
 
-/* A file is a mesh; a folder is a result of this program. */
+/* 1 for a regular file: a file is a mesh, a folder is a result of this program. */
 int pg_plot_is_file (const char *path)
 {
     struct stat about;
     return stat (path, &about) == 0 && S_ISREG (about.st_mode);
 }
 
-/* The field of that name, or NULL if the file has none. */
+/* Returns the field of that name, or NULL if the file has none. */
 static const pg_mesh_field *find_field (const fem *f, const char *name)
 {
     for (size_t k = 0; k < f->nfield; k++) if (strcmp (f->field[k].name, name) == 0) return &f->field[k];
     return NULL;
 }
 
-/* The field of that name; PG_E_USAGE with all names, and the nearest one, if there is none. */
+/* Finds the field of that name; PG_E_USAGE with all names, and the nearest one, if there is none. */
 static pg_status need_field (const plot_request *q, const fem *f, const char *name, const pg_mesh_field **out)
 {
     pg_status status = PG_OK;
@@ -49,7 +49,7 @@ done:
 }
 
 /* ---- values -------------------------------------------------------------------------------------------- */
-/* Von Mises stress of xx yy zz xy yz zx. */
+/* Von Mises stress of a stress with components xx yy zz xy yz zx. */
 static double mises (const double *s)
 {
     double d = (s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0]);
@@ -65,10 +65,10 @@ static double size_of (const double *v, int m)
     return sqrt (sum);
 }
 
-/* What of a field is drawn: one component, the magnitude, or the equivalent stress of von Mises. */
+/* The part of a field that is drawn: one component, the magnitude, or the von Mises stress. */
 typedef struct { const char *names, *wanted; int norm, equivalent, component; } choice;
 
-/* The component of a field with m values per node: by name, its magnitude, or the von Mises
+/* Chooses the part of a field with m values per node: a component by name, the magnitude, or the von Mises
  * stress of a tensor. */
 static pg_status choose_part (choice *c, const plot_request *q, int m)
 {
@@ -86,8 +86,7 @@ done:
     return status;
 }
 
-/* The values to draw and their label, which stands between bars if the colours are
- * logarithmic. */
+/* Computes the values to draw and their label, which stands between bars if the colours are logarithmic. */
 static pg_status choose_value (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;
@@ -109,8 +108,8 @@ done:
     return status;
 }
 
-/* The displacements of the nodes in the dimension of the mesh; files of plane results may have
- * three components. */
+/* Takes the displacements of the nodes in the dimension of the mesh; files of 2D results may have three
+ * components. */
 static pg_status choose_displacement (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;
@@ -127,8 +126,8 @@ done:
 }
 
 /* ---- the picture --------------------------------------------------------------------------------------- */
-/* Beside the file: its name without the ending, and what is drawn: _sets, _FIELD.COMPONENT,
- * _VIEW. */
+/* Names the picture, beside the file: its name without the ending, and what is drawn: _sets,
+ * _FIELD.COMPONENT, _VIEW. */
 static void name_picture (const plot_request *q, char *path, size_t size)
 {
     const char *dot = strrchr (q->directory, '.'), *slash = strrchr (q->directory, '/');
@@ -143,7 +142,7 @@ static void name_picture (const plot_request *q, char *path, size_t size)
                   q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
 }
 
-/* Values with both signs get the diverging colours, unless a range was given that is not
+/* Draws the picture. Values with both signs get diverging colours, unless a range was given that is not
  * symmetric. */
 static pg_status draw (const plot_request *q, const fem *f)
 {
@@ -168,7 +167,8 @@ done:
     return status;
 }
 
-/* A plain mesh is read without results, which is faster and works for formats that have none. */
+/* Draws a mesh file. Without --field it is read without results, which is faster and works for formats that
+ * have none. */
 pg_status pg_plot_mesh (const plot_request *q)
 {
     pg_status status = PG_OK;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A scene before it has run: its body as the shapes have it (alpha shapes, meshes, holes), its points, cracks
- * and slots, coloured by depth below the surface, material, local spacing, or by what is an expression of
- * place, such as random fields of stiffness and strength. */
+ * A scene before it has run: its body as given by shapes (alpha shapes, meshes, holes), its points, cracks
+ * and slots, coloured by depth below the surface, material, local spacing, or by a property that is an
+ * expression of position, such as random fields of stiffness and strength. */
 #include "plot.h"
 #include "perigal/force.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Is it the name of a stiffness or limit that varies in some material? -1: no. */
+/* Returns the index of the stiffness or limit of that name (NULL: of the first one) if it varies with
+ * position in some material; -1: none does. */
 static int variation_of (const pg_problem *p, const char *name)
 {
     for (int k = 0; k < PG_OF_COUNT; k++)
@@ -17,8 +18,8 @@ static int variation_of (const pg_problem *p, const char *name)
     return -1;
 }
 
-/* What the points are coloured by: the field that is asked for, else what varies first, else materials where
- * there are several; else the body is grey. */
+/* What the points are coloured by: the field that is asked for, else the first property that varies, else
+ * materials if there are several, else depth; without shapes the body is grey. */
 enum { GREY = -1, MATERIAL = PG_OF_COUNT, SPACING, DEPTH };
 
 static pg_status choose (int *out, const plot_request *q, const pg_problem *p)
@@ -66,7 +67,7 @@ static void write_label (int what, char label[80])
     snprintf (label, 80, what == GREY ? "%s" : "%s (%s)", name, unit);
 }
 
-/* "dir/scene.yaml" becomes "scene.png" here, unless --out says where. */
+/* Names the picture: "dir/scene.yaml" becomes "scene.png" in the current folder, unless --out is given. */
 static void name_picture (const plot_request *q, char *path, size_t size)
 {
     const char *slash = strrchr (q->directory, '/'), *base = slash ? slash + 1 : q->directory;
@@ -80,7 +81,8 @@ int pg_plot_is_scene (const char *path)
     return pg_plot_is_file (path) && end && (strcmp (end, ".yaml") == 0 || strcmp (end, ".yml") == 0);
 }
 
-/* Where the body is: the elements of its mesh, the whole cells of its lattice, or its shapes. */
+/* Returns the outline of a 2D body: the elements of its mesh, the whole cells of its lattice, or its
+ * shapes. */
 static const pg_outline *outline_of (const pg_problem *p, const pg_scene *scene, pg_outline *out)
 {
     int stairs = p->lattice.dim && strcmp (pg_scene_text (scene, "cells"), "staircase") == 0;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * When a step of a result was. Event stepping writes the number of its step as the time of
+ * Load factor and events of a step of a result. Event stepping writes the number of its step as the time of
  * result.e; history.csv says how many events had happened by then and at which load factor. */
 #include "plot.h"
 #include <math.h>
 #include <stdio.h>
 
-/* Counts the rows with an event up to the row of that step, whose load factor is returned. 0
+/* Counts the rows with an event up to the row of that step, and returns its load factor in *factor. Returns 0
  * if there is no such row or no such table. */
 int pg_plot_event (const char *folder, double step, long *events, double *factor)
 {

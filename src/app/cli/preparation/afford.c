@@ -13,10 +13,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* pg_available_memory looks at the machine and at limits of the process. */
+/* Memory in bytes: --memory, or what pg_available_memory finds from the machine and the limits of the
+ * process. */
 double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
 
-/* 300 kB of mesh are some thousand elements. */
+/* 1: the mesh file has less than 300 kB, some thousand elements. */
 int afford_tiny (const pg_scene *scene)
 {
     char *path = NULL;
@@ -28,9 +29,9 @@ int afford_tiny (const pg_scene *scene)
     return tiny;
 }
 
-/* Judges from the scene alone, before the problem is built. It loads a scene of its own:
- * faults are reported when the problem is built, once. A partial scene, which has faults
- * already, is concluded here if its geometry is too large to be built only for more faults. */
+/* Forecasts from the scene alone, before the problem is built. It loads a scene of its own, so that faults
+ * are reported once, when the problem is built. A partial scene, which has faults already, is ended here if
+ * its geometry is too large to be built only to find more faults. */
 pg_status afford_scene (const command *c, pg_forecast *f)
 {
     pg_status status = PG_OK;
@@ -56,10 +57,9 @@ done:
     return status;
 }
 
-/* Ordering and symbolic analysis of the graph of nodes, as the linear solver will do it, with
- * everything that couples nodes: families, facets of Nitsche supports, patches of the
- * dilatation. Eliminated supports join a few more nodes than the graph has, so the result is
- * then not called exact. */
+/* Computes ordering and symbolic factor of the graph of nodes as the linear solver will, with everything that
+ * couples nodes: families, facets of Nitsche supports, patches of the dilatation. Eliminated supports couple
+ * a few more nodes than the graph has, so the result is then not called exact. */
 static pg_status analyse (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -79,18 +79,18 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     int unknowns = pg_problem_unknowns (p), many = p->criterion && p->criterion->type;
     PG_TRY (pg_linear_forecast (&G, unknowns, many, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
-    if (f->count.slaves > 0) f->is.analysed = 0; /* elimination joins the masters: a little more */
+    if (f->count.slaves > 0) f->is.analysed = 0; /* elimination couples neighbours: a little more */
 done:
     pg_sparse_clear (&G);
     return status;
 }
 
-/* The forecast from the built problem; a symbolic analysis replaces the estimate of the factor
- * if it is asked for, or if the estimate exceeds half of the memory. Beyond 3e5 points the
- * analysis itself takes tens of seconds and is left out. */
+/* Forecasts from the built problem; a symbolic analysis replaces the estimate of the factor if it is asked
+ * for, or if the estimate exceeds half of the memory. Beyond 3e5 points the analysis itself takes tens of
+ * seconds and is left out. */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p, int thorough)
 {
-    static const double most = 3e5;                    /* points whose graph is analysed: some ten seconds */
+    static const double most = 3e5;                    /* most points that are analysed: ten seconds */
     pg_status status = PG_OK;
     double available = afford_available (c);
     PG_TRY (pg_forecast_problem (f, p));

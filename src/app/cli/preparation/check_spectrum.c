@@ -25,8 +25,8 @@ done:
 void spectrum_free (spectrum *s) { pg_symbol_free (&s->symbol); }
 
 /* ---- printing ------------------------------------------------------------------------------------------ */
-/* A motion in words with its wave vector in units of pi / step, so that 1 is the edge of the
- * zone. */
+/* Prints a motion (mode of a plane wave) in words with its wave vector in units of pi / step, so that 1 is
+ * the edge of the zone. */
 static void print_motion (const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -36,8 +36,8 @@ static void print_motion (const pg_motion *m, const pg_symbol *s)
     printf (") pi / step\n");
 }
 
-/* Tangent and speeds of long waves over those of the material. Directions with equal steps are
- * alike, so one of them is shown. Two shear speeds appear if they differ visibly. */
+/* Prints tangent stiffness and speeds of long waves over those of the material. Directions with equal steps
+ * are alike, so one of them is shown. Two shear speeds appear if they differ visibly. */
 static void print_tangent (const spectrum *x)
 {
     const double *T = x->survey.tangent;
@@ -61,8 +61,8 @@ static void print_tangent (const spectrum *x)
 /* Stable time step 2 / omega of central differences, s; NAN if the scene gives no density. */
 static double seconds (const spectrum *x, double omega) { return x->symbol->dense ? 2 / omega : NAN; }
 
-/* One line for each question: what was measured, the range of eigenvalues, remarkable motions,
- * unstable motions, long waves, time steps, and the verdict. */
+/* Prints a line for each question: what was measured, the range of eigenvalues, remarkable motions, unstable
+ * motions, long waves, time steps, and the verdict. */
 void spectrum_print (const spectrum *x, const pg_problem *p)
 {
     const pg_symbol *s = x->symbol;
@@ -101,8 +101,7 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
 }
 
 /* ---- JSON ---------------------------------------------------------------------------------------------- */
-/* A motion as a JSON object: value, wave vector in units of pi / step, kind and place in
- * words. */
+/* Writes a motion as a JSON object: value, wave vector in units of pi / step, kind and position in words. */
 static void put_motion (pg_json *j, const char *key, const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -158,12 +157,12 @@ void spectrum_json (pg_json *j, const spectrum *x)
 }
 
 /* ---- table and picture --------------------------------------------------------------------------------- */
-/* The course of the frequencies along the path: n places x (in pi / h) with wave vectors k (n
- * x 3), the two waves of the continuum (2 x n) and m branches (m x n), all in c_p / h. */
+/* Frequencies along the path through the zone: n positions x (in pi / h) with wave vectors k (n x 3, rad/m),
+ * the two waves of the continuum (2 x n) and m branches (m x n), both in c_p / h. */
 typedef struct { size_t n, m; double *x, *k, *continuum, *branch; } course;
 
-/* Solves all wave vectors of the path. Modes are sorted by frequency at each place, so
- * branches may change places where they cross. */
+/* Solves for all wave vectors of the path. Modes are sorted by frequency at each, so branches may swap where
+ * they cross. */
 static pg_status follow (course *c, const pg_symbol *s)
 {
     pg_status status = PG_OK;
@@ -191,7 +190,7 @@ done:
     return status;
 }
 
-/* spectrum.csv: one row per wave vector: place on the path, wave vector, continuum, branches. */
+/* Writes spectrum.csv, one row per wave vector: position on the path, wave vector, continuum, branches. */
 static pg_status write_table (const course *c, const pg_symbol *s, const char *folder)
 {
     pg_status status = PG_OK;
@@ -215,8 +214,8 @@ done:
     return status;
 }
 
-/* spectrum.png: the branches, and the waves of the continuum on the first edge of the zone, up
- * lines of the continuum are cut off where the branches of the lattice end: that is where long waves are. */
+/* Draws spectrum.png: the branches, and the waves of the continuum on the first edge of the zone. The lines
+ * of the continuum are cut off above the highest branch, which keeps the part of long waves. */
 static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, const char *folder)
 {
     pg_status status = PG_OK;
@@ -229,10 +228,10 @@ static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, 
         curve[n++] = (pg_curve) { .name = name[b], .n = c->n, .x = c->x, .y = c->branch + b * c->n };
     }
     for (size_t b = 0; b < c->m * c->n; b++) top = fmax (top, c->branch[b]);
-    for (size_t q = 0; q < half; q++) {                /* to the height of the branches */
+    for (size_t q = 0; q < half; q++) {                /* cut off above the highest branch */
         const double *y = c->continuum + q * c->n;
         size_t end = 2;
-        /* The straight lines of the continuum would otherwise shrink the branches. */
+        /* The straight lines of the continuum would otherwise set the scale and shrink the branches. */
         while (end <= LEG && y[end] <= top) end++;
         curve[n++] = (pg_curve){
             .name = q ? "continuum, shear" : "continuum, longitudinal", .n = end, .x = c->x, .y = y
@@ -252,7 +251,7 @@ done:
     return status;
 }
 
-/* The course is computed once for both files. */
+/* Writes spectrum.csv and spectrum.png from one computation of the path. */
 pg_status spectrum_write (const spectrum *x, const pg_problem *p, const char *folder)
 {
     pg_status status = PG_OK;

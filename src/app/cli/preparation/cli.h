@@ -11,12 +11,12 @@
 /* SCENE [-o DIR] [--resume | --force] ...: solves and leaves a folder of results (run.c). */
 int pg_cli_run   (int argc, char **argv);
 /* pg_cli_run as one of several ranks (perigal/ranks.h). *together 0: this rank has failed in a way that the
- * others do not know of, and they wait for it. */
+ * other ranks cannot know of, so that they would wait for it. */
 int pg_cli_run_ranks (int argc, char **argv, int *together);
 /* SCENE [--json] [--solve] [--spectrum] ...: what is wrong with a scene, or what it amounts to
  * (check.c). */
 int pg_cli_check (int argc, char **argv);
-/* DIR [REFERENCE] ...: a result against what is known of it (compare.c). */
+/* DIR [REFERENCE] ...: a result compared with a reference (compare.c). */
 int pg_cli_compare (int argc, char **argv);
 /* KIND [-o DIR]: a scene to start from (new.c). */
 int pg_cli_new   (int argc, char **argv);
@@ -31,43 +31,43 @@ int pg_cli_bench (int argc, char **argv);
 int pg_cli_sweep (int argc, char **argv);
 /* Orders of convergence (converge.c). */
 int pg_cli_converge (int argc, char **argv);
-/* What bench and converge start in a new process (trial.c). */
+/* One measurement, which bench and converge start in a new process (trial.c). */
 int pg_cli_trial (int argc, char **argv);
 int pg_cli_trial_of_mesh (int argc, char **argv);
 
-/* How far a run is, on stderr: on a terminal one line that is written again and again and fits
- * its width; otherwise a line for every tenth of the run, and now and then one between
- * (progress.c). */
+/* Progress of a run on stderr: on a terminal one line that is overwritten and fits its width; otherwise a
+ * line for every tenth of the run, and now and then one between (progress.c). */
 typedef struct {
     /* Start of the run, and when a line was last written, s. */
     double start, last;
-    /* Two earlier moments; the pace is that since mark[0]. */
+    /* Two earlier moments: time (s), share of the run done, events; the pace is measured since mark[0]. */
     struct { double at, share, events; } mark[2];
-    /* tenths shown so far; stderr is a terminal; nothing is shown; explicit time steps; stages
-     * of relaxation; a first share is known. */
+    /* tenths shown so far; 1: stderr is a terminal; 1: nothing is shown; 1: explicit time steps; 1: stages of
+     * relaxation; 1: a first share is known. */
     int    tenth, tty, quiet, steps_in_time, staged, begun;
 } progress;
-/* Begins; settled: the options as the solver has settled them, which say what a step is. */
+/* Starts the display; settled: the options as the solver uses them, which say what a step is. */
 void progress_start (progress *p, int quiet, const pg_solver_options *settled);
-/* Shows a line if it is time. within = 1: between two rounds of a step that is not done, whose
- * numbers so far are in `step`. */
+/* Shows a line if it is time. within = 1: the call comes between two iterations of a step that is not done,
+ * whose numbers so far are in `step`. */
 void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report,
                     int within);
 /* Removes the line from the terminal. */
 void progress_end   (progress *p);
 
-/* From now on a signal that asks this process to stop is noted: its number, 0 while there was none; the
- * second one of its kind, half a second later or more, ends the process (signals.c). */
+/* Handles signals from now on: run_asked_to_stop returns the number of the signal that asked this process to
+ * stop, 0 if there was none. A second one of its kind, half a second later or more, ends the process
+ * (stop_signals.c). */
 void run_listen        (void);
 int  run_asked_to_stop (void);
-/* There is a folder of results now, which a signal has to leave in order: until then it ends the process at
- * once. */
+/* Call this when the result folder exists: from then on a signal must leave it in order, before it ends the
+ * process at once. */
 void run_opens         (void);
-/* 1: a signal that comes now belongs to the request that came `since` then (CLOCK_MONOTONIC). */
+/* 1: a signal that comes now belongs to the request that came at time `since` (CLOCK_MONOTONIC). */
 int  command_same_request (const struct timespec *since);
 /* From now on SIGINT, SIGTERM and SIGHUP are counted, for studies of many runs (stops.c). */
 const volatile sig_atomic_t *command_stops (void);
-/* usage.c: prints what a command says of itself; 0: there is no such command. */
+/* Prints the usage of a command; 0: there is no such command (usage.c). */
 int       command_usage (FILE *to, const char *name);
 
 /* What the command line of run and check says (command.c). */
@@ -91,13 +91,14 @@ int       command_parse (command *c, int argc, char **argv);
 /* 1 if words follow a --set that belong to its value but lost their quotes; `out` gets the
  * message. */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);
-/* The exit code of a program that ended with this one: what it printed must have been written (command.c). */
+/* Returns `code`, or if that is "done" and standard output could not be written, the exit code of a file
+ * error (command.c). */
 int       command_written (const char *program, int code);
 int       command_threads (void);
-/* Shares processors and memory among so many jobs: threads of each, and its limit of memory as text. threads,
- * memory: what was asked for, 0: nothing (sweep.c). */
+/* Divides processors and memory among `jobs` processes: threads of each, and its memory limit as text.
+ * threads, memory (bytes): what the command line asks for; 0: nothing (sweep.c). */
 void      command_share (int jobs, int *threads, double memory, char text[32]);
-/* The runs of --seeds; returns the exit code (seeds.c). */
+/* Makes the runs of --seeds; returns the exit code (seeds.c). */
 int       command_seeds (const command *c);
 /* Loads the scene with the --set options. A file that cannot be read counts as a wrong scene.
  * The scene may be partial: it then has faults but can be looked at for more. */
@@ -108,10 +109,10 @@ pg_status command_problem (const command *c, const pg_scene *scene, pg_problem *
                            pg_solver_options *o);
 /* Prints a message to stderr. */
 void      command_complain (pg_status status, const char *text);
-/* Prints to stderr the command that goes on with this run. */
+/* Prints to stderr the command that continues this run. */
 void      command_again (const command *c);
 
-/* A run up to its first step (prepare.c). */
+/* What a run has before its first step (prepare.c). */
 typedef struct {
     pg_scene   *scene;
     pg_forecast forecast;
@@ -120,31 +121,33 @@ typedef struct {
     pg_solver  *solver;
     pg_state   *state;
 } preparation;
-/* The threads of libraries are this program's to settle: once the scene is read, also those of BLAS. */
+/* From the reading of the scene on, this program sets the threads of libraries itself, those of BLAS
+ * included. */
 void      settle_blas_too (void);
-/* From the scene, which the caller has loaded, to the problem and its patch test; refused where memory is
- * short. thorough: afford_problem. Of ranks that share the body the forecast stays empty. */
+/* Makes the problem from the scene, which the caller has loaded, and its patch test; fails where memory is
+ * short. thorough: as in afford_problem. Where ranks share the body the forecast stays empty. */
 pg_status prepare_problem (preparation *r, const command *c, int thorough);
-/* The solver, which settles what the options leave open. */
+/* Creates the solver, which sets the options that are left open. */
 pg_status prepare_solver  (preparation *r);
-/* The state it starts from, all that it does before the first step, and what results are asked for. */
+/* Creates the first state, does all that a run does before the first step, and checks which results are asked
+ * for. */
 pg_status prepare_start   (preparation *r);
 void      prepare_free    (preparation *r);
 
 /* Bytes that the run may use: --memory, or what the machine grants (afford.c). */
 double    afford_available (const command *c);
-/* 1 for a mesh file so small that the run fits any machine: not worth reading twice. */
+/* 1 for a mesh file so small that the run fits any machine, so that it is not worth reading twice for a
+ * forecast. */
 int       afford_tiny      (const pg_scene *scene);
-/* PG_E_LIMIT if the run would need more memory than there is, judged from the scene before
- * anything large is built; a wrong scene gives an empty forecast. */
+/* Forecasts the memory from the scene, before anything large is built. PG_E_LIMIT: the run would need more
+ * than there is; a wrong scene gives an empty forecast. */
 pg_status afford_scene     (const command *c, pg_forecast *f);
-/* PG_E_LIMIT if the run would need more memory than there is, judged from the built problem. thorough = 1:
- * the matrix is analysed in any case, not only when memory may be short. */
+/* Forecasts the memory from the built problem. PG_E_LIMIT: the run would need more than there is. thorough =
+ * 1: the matrix is analysed in any case, not only when memory may be short. */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
-                          int thorough /* analyse whatever is free */);
+                          int thorough /* 1: analyse in any case */);
 
-/* Plane waves of the scene's lattice (check_spectrum.c); symbol is NULL if they were not asked
- * for. */
+/* Plane waves of the scene's lattice (check_spectrum.c); symbol is NULL if --spectrum was not given. */
 typedef struct { pg_symbol *symbol; pg_survey survey; char verdict[400]; } spectrum;
 /* Measures the lattice and samples its waves; PG_E_USAGE without a lattice (symbol.h). */
 pg_status spectrum_find  (spectrum *out, const pg_scene *scene, const pg_problem *p);
@@ -154,16 +157,18 @@ void      spectrum_json  (pg_json *j, const spectrum *spectrum);
 /* Writes spectrum.csv and spectrum.png into a folder. */
 pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);
 
-/* The linear system of a scene as files of a folder, NULL: none (check_matrix.c). */
+/* Writes the linear system of a scene as files of a folder; folder NULL: does nothing (check_matrix.c). */
 pg_status matrix_write (const pg_problem *p, const pg_solver_options *o, const char *folder);
 
-/* check --ranks (check_ranks.c): what that many processes would do with the scene; returns the exit code. */
+/* Runs check --ranks: prints what c->ranks processes would do with the scene (check_ranks.c); returns the
+ * exit code. */
 int       check_ranks (const command *c);
 
-/* What a scene amounts to (plan.c): in short, before a run; doubts, empty before, gets the warnings. */
+/* Prints a summary of the problem and the solver before a run (plan.c); doubts, empty before, gets the
+ * warnings. */
 void plan_print      (const pg_problem *p, const pg_solver_options *o, pg_statistics *doubts);
-/* Everything that check has found out. stable: time step of an explicit method, s, and where
- * it comes from; NAN for others. available: bytes. */
+/* Everything that check has found out. available: memory, bytes; stable: time step of an explicit method, s,
+ * and `from`, how it was found; NAN for other methods. */
 typedef struct {
     const pg_problem *problem;
     const pg_solver_options *options;
@@ -174,19 +179,19 @@ typedef struct {
     double stable;
     const char *from;
     const pg_crack_statistics *network;
-    const pg_solver *solver;                           /* NULL: the body is too large to try */
-    int begun;                                         /* 1: all was done that comes before its first step */
-    const pg_statistics *warned;                       /* what a run warns of before its first step */
+    const pg_solver *solver;                           /* NULL: the body is too large to create one */
+    int begun;                                         /* 1: all that precedes its first step was done */
+    const pg_statistics *warned;                       /* warnings of a run before its first step */
 } plan;
-/* Beyond so many points check leaves out what it names here. */
+/* Number of points beyond which check leaves out what plan_untried names. */
 #define PLAN_MOST_TRIED 3e5
 #define plan_untried "shape functions, contact and the solver at the start"
-/* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
- * an estimate, 1: by --solve, 2: by the solver itself. */
+/* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured 0: estimated, 1: by
+ * --solve, 2: by the solver itself. */
 typedef struct { double omega, dt, courant; int measured; } plan_times;
 /* Largest frequency and stable time step, measured where that was done, else estimated. */
 plan_times plan_times_of (const plan *p);
-/* What the run will not do, as far as that is known before; returns how many entries were
+/* Lists the work that the run will skip, as far as that is known before; returns how many entries were
  * written. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);
 /* Print all that check has found out: at length for people, and as JSON for programs. */
@@ -194,17 +199,17 @@ void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
 /* Prints what `write` puts into the JSON file `path`. */
 pg_status json_to_stdout (pg_status (*write) (const void *what, const char *path), const void *what);
-/* The mesh of a body, if it has one (plan_mesh.c). */
+/* Prints the mesh of a body, if it has one (plan_mesh.c). */
 void plan_mesh       (const pg_problem *p);
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
-/* What of its file is not used. */
+/* Prints which parts of the mesh file are not used. */
 void plan_passed     (const pg_problem *p);
-/* The cracks of the scene (plan_network.c); nothing without any. */
+/* Prints the cracks of the scene (plan_network.c); nothing if there are none. */
 void plan_network      (const pg_crack_statistics *network);
-/* What the solver has settled: time steps, stages. */
+/* Prints what the solver has set: time steps, stages. */
 void plan_settled     (const pg_solver *solver);
 /* Prints the warnings of a report that `before` does not have (NULL: all). */
 void plan_warnings   (const pg_statistics *report, const pg_statistics *before);
-/* Prints new warnings of a report alone, on stderr, in runs that print nothing else. */
+/* Prints new warnings of a report on stderr and nothing else, for runs with --quiet. */
 void plan_quiet_warnings (const pg_statistics *report, const pg_statistics *before);
 #endif

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* --threads N, 0 to 64; 0 means one for each processor. The text is kept for command_again. */
+/* Reads --threads N, 0 to 64; 0 means one for each processor. The text is kept for command_again. */
 static int read_threads (command *c, const char *text)
 {
     char *end;
@@ -26,8 +26,8 @@ static int read_threads (command *c, const char *text)
     return -1;
 }
 
-/* Bytes of "8GB", "500 MB", "1.5 GiB" or "1e9"; NAN for anything else. Units with an i are
- * powers of 1024, the others powers of 1000. */
+/* Returns the bytes of "8GB", "500 MB", "1.5 GiB" or "1e9"; NAN for anything else. Units with an i are powers
+ * of 1024, others powers of 1000. */
 static double size_of (const char *text)
 {
     static const struct { const char *unit; double size; } units[] = {
@@ -43,7 +43,7 @@ static double size_of (const char *text)
     return NAN;
 }
 
-/* --memory SIZE: the run is refused if it needs more, and may use less. */
+/* Reads --memory SIZE: a run that needs more is refused. */
 static int read_memory (command *c, const char *text)
 {
     c->memory = size_of (text);
@@ -52,7 +52,7 @@ static int read_memory (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* --seeds N: so many runs. */
+/* Reads --seeds N: number of runs with different seeds. */
 static int read_seeds (command *c, const char *text)
 {
     char *end;
@@ -62,7 +62,7 @@ static int read_seeds (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* -j N: so many runs of --seeds at a time. */
+/* Reads -j N: number of runs of --seeds at a time. */
 static int read_jobs (command *c, const char *text)
 {
     char *end;
@@ -73,7 +73,7 @@ static int read_jobs (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* --ranks N: what so many processes would do. */
+/* Reads --ranks N: number of processes whose work check foretells. */
 static int read_ranks (command *c, const char *text)
 {
     enum { MOST = 1000000 };
@@ -87,7 +87,7 @@ static int read_ranks (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
+/* Reads --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
     if (c->nset >= sizeof c->set / sizeof *c->set || !strchr (text, '=')) {
@@ -99,8 +99,8 @@ static int read_set (command *c, const char *text)
     return -1;
 }
 
-/* An unknown option or one without its value: names the nearest option of this command and
- * prints its usage. Returns the exit code. */
+/* Reports an unknown option or one without its value: names the nearest option of this command and prints its
+ * usage. Returns the exit code. */
 static int refuse (const char *name, int option, const char *argument)
 {
     if (option == ':') fprintf (stderr, "perigal %s: %s needs a value\n", name, argument);
@@ -120,7 +120,7 @@ static int refuse (const char *name, int option, const char *argument)
     return PG_EXIT_USAGE;
 }
 
-/* 1 for a file that exists or is called like a scene, so that the scene after a --set is not
+/* 1 for a file that exists or whose name ends like that of a scene, so that the scene after a --set is not
  * taken for a part of its value. */
 static int is_scene (const char *word)
 {
@@ -128,8 +128,8 @@ static int is_scene (const char *word)
     return access (word, F_OK) == 0 || (dot && (strcmp (dot, ".yaml") == 0 || strcmp (dot, ".yml") == 0));
 }
 
-/* Shells split --set method.horizon=2.5 spacing at the blank. Words after the value of a --set
- * that are neither options nor files are taken for the rest of such a value, and the message
+/* Finds a --set value whose quotes are missing: shells split --set method.horizon=2.5 spacing at the blank.
+ * Words after a --set that are neither options nor files are taken for the rest of the value, and the message
  * shows the line with quotes. Returns 0 if there are none. */
 int command_unquoted (char *out, size_t size, int argc, char **argv)
 {
@@ -151,15 +151,15 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
-/* run and check share their options but for these: --force, --seeds are for run; --json, --solve,
- * --spectrum, --echo, --matrix, --ranks for check. */
+/* 1: the option belongs to the command. run and check share all options but --force, --seeds, --jobs of run,
+ * and --json, --solve, --spectrum, --echo, --matrix, --ranks of check. */
 static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
     return strchr ("fnj", option) ? !checks : checks || !strchr ("kvweMR", option);
 }
 
-/* One option of run or check; -1: go on, else the exit code. */
+/* Reads one option of run or check; -1: go on, else the exit code. */
 static int read_option (command *c, const char *name, int option, const char *word)
 {
     if (!belongs_to (option, name)) return refuse (name, option, word);
@@ -185,8 +185,8 @@ static int read_option (command *c, const char *name, int option, const char *wo
     }
 }
 
-/* getopt_long changes the order of the words, so lost quotes are looked for before it. opterr
- * = 0: the messages are our own. Without --threads all processors are used. */
+/* Reads the command line. getopt_long changes the order of the words, so missing quotes are looked for before
+ * it. opterr = 0: the messages are our own. Without --threads all processors are used. */
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
@@ -236,8 +236,8 @@ int command_parse (command *c, int argc, char **argv)
     return -1;
 }
 
-/* Where none are asked for: OMP_NUM_THREADS, by which users share a machine among all their programs, or one
- * per processor. */
+/* Returns the number of threads if none is asked for: OMP_NUM_THREADS, by which users share a machine among
+ * all their programs, or one per processor. */
 int command_threads (void)
 {
     const char *shared = getenv ("OMP_NUM_THREADS");
@@ -246,15 +246,15 @@ int command_threads (void)
     return n < 1 ? 1 : n > 64 ? 64 : (int) n;
 }
 
-/* A scene file that is missing counts as wrong, so that both have the exit code 65. */
+/* Loads the scene. A missing file counts as a wrong scene, so that both have the exit code 65. */
 pg_status command_scene (const command *c, pg_scene **scene)
 {
     pg_status status = pg_scene_load_some (scene, c->scene, c->nset, c->set);
     return status == PG_E_FILE ? PG_E_SCENE : status;
 }
 
-/* Problem, solver options, output: each part looks for its faults even if others have found
- * some, and pg_scene_pass keeps them until pg_problem_complete reports all at once. */
+/* Builds the problem and reads solver options and output: each part looks for its faults even if others have
+ * found some, and pg_scene_pass keeps them until pg_problem_complete reports all at once. */
 pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem,
                            pg_solver_options *o)
 {
@@ -270,15 +270,15 @@ done:
     return status;
 }
 
-/* Faults of a scene begin with file and line, where editors find them; anything else begins
- * with the name of the program. */
+/* Prints a message. Faults of a scene begin with file and line, where editors find them; any other message
+ * begins with the name of the program. */
 void command_complain (pg_status status, const char *text)
 {
     fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", text);
 }
 
-/* A word as the shell would take it, in single quotes where these are needed; a single quote
- * inside is written as '\''. */
+/* Prints a word as the shell would take it, in single quotes where these are needed; a single quote inside is
+ * written as '\''. */
 static void put_word (const char *word)
 {
     if (!*word || word[strcspn (word, " \t\n\"'\\$`!*?[](){}<>|&;#~")]) {
@@ -291,7 +291,8 @@ static void put_word (const char *word)
     } else fputs (word, stderr);
 }
 
-/* All options that change the run are repeated, so that the line can be copied. */
+/* Prints the command that continues the run. All options that change the run are repeated, so that it can be
+ * copied. */
 void command_again (const command *c)
 {
     fputs ("perigal: continue with: ", stderr);

@@ -10,17 +10,16 @@
 #include <math.h>
 #include <string.h>
 
-/* How the solver goes on, in its own words (static solvers: event stepping or fixed steps); ""
- * if it says nothing. */
+/* Returns how the solver steps, in its own words (quasi-static solvers: event stepping or fixed steps); "" if
+ * it says nothing. */
 static const char *stepping (const pg_solver_options *o)
 {
     const pg_solver_type *type = pg_solver_find (o->kind);
     return type && type->manner ? type->manner (o) : "";
 }
 
-/* The criterion; with several materials one line for each, with its points and its evaluation
- * points, because a block that was meant to have another material shows there. width: of the
- * first column. */
+/* Prints the criterion; with several materials one line for each, with its points and its evaluation points,
+ * because a block that was meant to have another material shows there. width: of the first column. */
 static void describe (const pg_problem *p, int width)
 {
     char text[512];
@@ -36,8 +35,8 @@ static void describe (const pg_problem *p, int width)
     }
 }
 
-/* The choices of the method, and what the force says of its constants: that of the solver; where
- * there is none one is created and freed again. */
+/* Prints the choices of the method, and what the force says of its constants: the force of the solver; if
+ * there is no solver a force is created and freed again. */
 static void print_method (const plan *all)
 {
     const pg_problem *p = all->problem;
@@ -54,7 +53,7 @@ static void print_method (const plan *all)
     if (!all->solver) force->free (&self);
 }
 
-/* The box of the body, and thickness or cross section, with a remark if the scene gives none.
+/* Prints the bounding box of the body, and thickness or cross section, with a remark if the scene gives none.
  * width: of the first column; 0: none. */
 static void print_box (const pg_problem *q, int width)
 {
@@ -75,8 +74,8 @@ static void print_notes (const pg_problem *p, const pg_solver_options *o)
     for (size_t k = 0; pg_solver_note (p, o, k, note, sizeof note); k++) printf ("  %s\n", note);
 }
 
-/* The short form, before the progress of a run begins; flushed, because progress goes to the
- * other stream. Warnings that need no solver come now, for they help where it is refused. */
+/* Prints the short form, before the progress of a run; flushed, because progress goes to the other stream.
+ * Warnings that need no solver are printed now, since they help if the solver then refuses the problem. */
 void plan_print (const pg_problem *p, const pg_solver_options *o, pg_statistics *doubts)
 {
     char text[400];
@@ -97,8 +96,8 @@ void plan_print (const pg_problem *p, const pg_solver_options *o, pg_statistics 
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
-/* What is known only after the solver was created. Static solvers have no time step and print
- * nothing here. */
+/* Prints what is known only after the solver was created. Implicit solvers have no limit of the time step,
+ * and nothing is printed. */
 void plan_settled (const pg_solver *solver)
 {
     const pg_solver_options *o = pg_solver_settled (solver);
@@ -113,9 +112,9 @@ void plan_settled (const pg_solver *solver)
 }
 
 /* ---- at length ----------------------------------------------------------------------------------------- */
-/* The largest frequency: measured by the solver or by --solve; else an estimate, 2 c_p / h
- * inside the body, and where supports of the stiffness beta E / h stiffen boundary points
- * omega^2 = 2 beta E / (rho h^2). Zero without densities. */
+/* Largest frequency, rad/s: measured by the solver or by --solve; else an estimate, 2 c_p / h inside the
+ * body, and where supports of the stiffness beta E / h stiffen boundary points omega^2 = 2 beta E / (rho
+ * h^2). Zero without densities. */
 plan_times plan_times_of (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -143,7 +142,7 @@ plan_times plan_times_of (const plan *p)
     return t;
 }
 
-/* Appends an entry unless the list is full; what it saves in seconds is not known beforehand. */
+/* Appends an entry unless the list is full; how many seconds it saves is not known beforehand. */
 static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, const char *why)
 {
     if (*n == most) return;
@@ -155,9 +154,9 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 /* A reason for which a run leaves something out. */
 typedef struct { int applies; const char *what, *why; } reason;
 
-/* What the run will not do, as far as that is known before it starts: the counterpart of what
- * the solver reports afterwards (`skipped`). Entries that follow from numbers of the run
- * itself are missing here. */
+/* Lists the work that the run will skip, as far as that is known before it starts: the counterpart of what
+ * the solver reports afterwards (`skipped`). Entries that follow from numbers of the run itself are missing
+ * here. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
@@ -210,8 +209,8 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     return n;
 }
 
-/* Volume and surface of cut cells beside the exact ones, where these are known: they show how
- * well the cells represent curved surfaces. */
+/* Prints volume and surface of cut cells beside the exact ones, where these are known: they show how well the
+ * cells represent curved surfaces. */
 static void print_cut (const pg_problem *q)
 {
     double volume = 0, area = 0, exact_volume, exact_area;
@@ -224,8 +223,7 @@ static void print_cut (const pg_problem *q)
     printf ("\n");
 }
 
-/* Layers of cells beyond the sides of the body: rows of cells, thickness, and where they
- * begin. */
+/* Prints the layers of cells beyond the sides of the body: rows of cells, thickness, and where they begin. */
 static void print_layers (const pg_problem *q)
 {
     static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
@@ -238,7 +236,7 @@ static void print_layers (const pg_problem *q)
     }
 }
 
-/* Whose surface is that of whole cells, whatever `cells` says. */
+/* Names the alpha shapes whose surface is a staircase of whole cells, whatever `cells` says. */
 static void print_stairs (const pg_problem *q)
 {
     size_t shapes = 0;
@@ -249,7 +247,7 @@ static void print_stairs (const pg_problem *q)
                 shapes > 1 ? "the alpha shapes" : "the alpha shape");
 }
 
-/* Points, cells, bonds, unknowns. The mean family is that of the node-node bonds. */
+/* Prints numbers of points, cells, bonds and unknowns. The mean family is that of the node-node bonds. */
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -278,9 +276,8 @@ static void print_counts (const plan *p)
             q->form.approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
-/* The constants of each material and its wave speeds; Lame's constants are those of the mode
- * (plane stress has its own lambda), Rayleigh waves exist in isotropic materials with a
- * density only. */
+/* Prints the constants of each material and its wave speeds; Lame's constants are those of the mode (plane
+ * stress has its own lambda), Rayleigh waves exist in isotropic materials with a density only. */
 static void print_materials (const pg_problem *p)
 {
     for (size_t k = 0; k < p->nmaterial; k++) {
@@ -303,8 +300,8 @@ static void print_materials (const pg_problem *p)
         printf ("  %-18s  %s\n", k ? "" : "varies", line);
 }
 
-/* Time steps or stages, and what would be stable for explicit ones. Without shape functions
- * the stable step is known only once it has been measured. */
+/* Prints time steps or stages, and the stable step of explicit methods. Without shape functions the stable
+ * step is known only once it has been measured. */
 static void print_times (const plan *p)
 {
     plan_times t = plan_times_of (p);
@@ -325,8 +322,8 @@ static void print_times (const plan *p)
                                 : "estimate; measured by --solve");
 }
 
-/* The linear solver and the size of its factor; "analysed" numbers are exact, others are
- * estimates. Seconds at 20 GFLOP/s are a rough measure only. */
+/* Prints the linear solver and the size of its factor; "analysed" numbers are exact, others are estimates.
+ * Seconds at 20 GFLOP/s are a rough measure only. */
 static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
@@ -342,7 +339,7 @@ static void print_factor (const pg_forecast *f)
             f->is.analysed ? "analysed: " : "estimate", f->is.analysed ? f->ordering : "");
 }
 
-/* Bytes with three digits in MB, GB or TB (powers of 1000); the limits avoid "1e+03 MB". */
+/* Prints bytes with three digits in MB, GB or TB (powers of 1000); the limits avoid "1e+03 MB". */
 static void print_bytes (double bytes)
 {
     if (bytes < 999.5e6) printf ("%.3g MB", bytes * 1e-6);
@@ -350,7 +347,7 @@ static void print_bytes (double bytes)
     else printf ("%.3g TB", bytes * 1e-12);
 }
 
-/* The forecast of memory and what there is, then by part, parts below 50 kB left out. */
+/* Prints the forecast of memory and what is available, then the parts above 50 kB. */
 static void print_memory (const plan *p)
 {
     const pg_forecast *f = p->forecast;
@@ -364,11 +361,11 @@ static void print_memory (const plan *p)
     }
 }
 
-/* A coordinate without the rounding of one that is zero. */
+/* Returns a coordinate, or 0 if it differs from 0 by rounding only. */
 static double tidy (const plan *p, double x) { return fabs (x) < 1e-9 * p->problem->cloud.h ? 0 : x; }
 
-/* Of every open tip in the plane: stress intensity factors and energy release rate under the
- * full load, and how well the latter is known by two rings. */
+/* Prints for every open crack tip (2D): stress intensity factors and energy release rate under the full load,
+ * and how well the latter is known from two rings of integration. */
 static void print_tips (const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -400,7 +397,8 @@ static void print_tips (const plan *p)
         printf ("  %-18s  %zu more tips\n", "crack tips", b->ntip - PG_FIRST_TIPS);
 }
 
-/* Of every front in space: the range of J and of the stress intensity factors under the full load. */
+/* Prints for every crack front (3D): the ranges of J and of the stress intensity factors under the full
+ * load. */
 static void print_fronts (const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -427,8 +425,8 @@ static void print_fronts (const plan *p)
         printf ("  %-18s  %zu more fronts\n", "crack fronts", b->nfront - PG_FIRST_TIPS);
 }
 
-/* What a material takes, and the spacing at which its strength can be told from its fracture
- * energy: the zone E G0 / f_t^2 in which it fails should be 8 spacings long. */
+/* Prints fracture energy and strength of the materials, and the spacing at which strength can be told from
+ * fracture energy: the zone E G0 / f_t^2 in which a material fails should be 8 spacings long. */
 static void print_toughness (const pg_problem *p)
 {
     double x[3] = { 0 };
@@ -454,7 +452,7 @@ static void print_toughness (const pg_problem *p)
     }
 }
 
-/* Is J known at all tips, in space around all fronts? */
+/* 1: J is known at all crack tips, in 3D around all fronts. */
 static int knows_tips (const pg_first_break *b)
 {
     if (b->refused) return 0;
@@ -463,7 +461,7 @@ static int knows_tips (const pg_first_break *b)
     return 1;
 }
 
-/* Of a criterion that judges tips: when and where the first facet grows. */
+/* Prints when and where the first facet grows, for a criterion that is evaluated at crack tips. */
 static void print_first_growth (const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -494,7 +492,7 @@ static void print_first_growth (const plan *p)
 }
 
 /* Prints the first break that --solve found. A load factor above 1 means that nothing breaks under the full
- * load, which is warned of, as is a criterion that no load can reach. */
+ * load, which gives a warning, as does a criterion that no load can reach. */
 static void print_first_break (const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node-node", "point-node", "facet-node" };
@@ -531,8 +529,7 @@ static void print_first_break (const plan *p)
                 b->factor);
 }
 
-/* The error of the patch test: how far the discretization is from reproducing a uniform
- * strain. */
+/* Prints the error of the patch test: how far the discretization is from reproducing a uniform strain. */
 static void print_patch (const pg_problem *p)
 {
     char words[240];
@@ -542,7 +539,7 @@ static void print_patch (const pg_problem *p)
             p->quality.patch.held ? "outermost points constrained" : "tractions on the whole surface");
 }
 
-/* Of a large body the start of the run costs as much as the run's first minutes. */
+/* Says what check has not tried: for a large body the start of a run costs as much as its first minutes. */
 static void print_untried (const plan *p)
 {
     if (!p->begun)
@@ -550,8 +547,8 @@ static void print_untried (const plan *p)
                 plan_untried, PLAN_MOST_TRIED);
 }
 
-/* All that check says, in the order geometry, method, materials, solver, memory, warnings,
- * first break. */
+/* Prints all that check has found, in the order geometry, method, materials, solver, memory, warnings, first
+ * break. */
 void plan_print_long (const plan *p)
 {
     const pg_problem *q = p->problem;

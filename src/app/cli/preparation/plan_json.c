@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Sizes of the problem: points, spacing, cells, bonds of each set, unknowns, horizon, and the
- * mesh if there is one. */
+/* Writes sizes of the problem: points, spacing, cells, bonds of each set, unknowns, horizon, and the mesh if
+ * there is one. */
 static void counts (pg_json *j, const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node_node", "point_node", "facet_node" };
@@ -43,8 +43,8 @@ static void counts (pg_json *j, const plan *p)
     pg_crack_statistics_json (j, "cracks", p->network);
 }
 
-/* Each material with its wave speeds and its criterion; other laws than the isotropic one
- * describe themselves in words, as E and nu do not say all of them. */
+/* Writes each material with its wave speeds and its criterion; laws other than the isotropic one are
+ * described in words, as E and nu do not determine them. */
 static void constants (pg_json *j, const pg_problem *p)
 {
     char text[512];
@@ -73,7 +73,7 @@ static void constants (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
-/* Solver and time steps (s), and where the stable time step comes from: measured, an estimate by the
+/* Writes solver and time steps (s), and where the stable time step comes from: measured, an estimate by the
  * largest frequency, the solver itself, or unknown without a density. */
 static void steps (pg_json *j, const plan *p)
 {
@@ -98,7 +98,7 @@ static void steps (pg_json *j, const plan *p)
                               : "no density");
 }
 
-/* Linear solver, size of matrix and factor, and the forecast of memory by part, bytes. */
+/* Writes the linear solver, sizes of matrix and factor, and the forecast of memory by part, bytes. */
 static void memory (pg_json *j, const plan *p)
 {
     const pg_forecast *f = p->forecast;
@@ -109,7 +109,7 @@ static void memory (pg_json *j, const plan *p)
         pg_json_number (j, "matrix_entries", f->matrix_entries);
         pg_json_number (j, "factor_entries", f->factor_entries);
         pg_json_number (j, "factor_flops", f->factor_flops);
-        /* At 2e10 operations a second, what one core does; a guess, as clocks differ. */
+        /* at 2e10 operations a second, the speed of one core; a guess, as processors differ */
         pg_json_number (j, "factor_seconds", f->factor_flops / 20e9);
     }
     pg_json_open (j, "bytes", '{');
@@ -124,8 +124,8 @@ static void memory (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* The first break, if it was asked for and the scene is static: the load factor at which it comes and
- * where; of a crack that grows the tip and the two ends of its first facet. */
+/* Writes the first break, if it was asked for and the scene is quasi-static: the load factor at which it
+ * occurs and where; for a crack that grows, the tip and the two ends of its first facet. */
 static void first (pg_json *j, const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -149,7 +149,7 @@ static void first (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* What the tips of cracks bear under the full load: place in m, K in Pa sqrt (m), J in J/m^2, T in Pa,
+/* Writes the state of crack tips under the full load: position in m, K in Pa sqrt (m), J in J/m^2, T in Pa,
  * radii of the rings in m; null where there is no room for a ring. */
 static void tips (pg_json *j, const plan *p)
 {
@@ -177,8 +177,8 @@ static void tips (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* Fronts of cracks in space under the full load: least, mean and largest J, and the place of the last; least
- * and largest K; null where there was no room. */
+/* Writes crack fronts (3D) under the full load: least, mean and largest J, and where J is largest; least and
+ * largest K; null where there was no room for a tube. */
 static void fronts (pg_json *j, const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -205,8 +205,8 @@ static void fronts (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* Warnings and notes that are known before the run, by the same functions that speak in the run: plan and
- * report cannot differ. */
+/* Writes warnings and notes that are known before the run, by the functions that the run itself uses, so that
+ * plan and report cannot differ. */
 static void doubts (pg_json *j, const plan *p)
 {
     char note[400];
@@ -221,7 +221,7 @@ static void doubts (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* Writes everything to a file; a failure of the writer is reported when it closes. */
+/* Writes the whole plan to a file; a failure of the writer is reported when it is closed. */
 static pg_status write_plan (const void *what, const char *path)
 {
     const plan *p = what;
@@ -256,7 +256,7 @@ done:
     return status;
 }
 
-/* The JSON writer replaces whole files, so the text passes through a temporary one (TMPDIR, or
+/* Prints JSON. The writer replaces whole files, so the text passes through a temporary one (in TMPDIR, or
  * /tmp), which is removed. */
 pg_status json_to_stdout (pg_status (*write) (const void *what, const char *path), const void *what)
 {

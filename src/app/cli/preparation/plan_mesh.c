@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a body from a mesh amounts to: file, elements, blocks, sets, sizes and quality of
- * elements. */
+ * Description of a body from a mesh: file, elements, blocks, sets, sizes and quality of elements. */
 #include "cli.h"
 #include <string.h>
 #include <strings.h>
 
-/* Blocks and sets that are listed by name. */
+/* Number of blocks, and of sets, that are listed by name. */
 enum { MOST = 12 };
 
 /* Number of elements of a kind. */
@@ -24,8 +23,8 @@ static size_t of_block (const pg_mesh *m, size_t block)
     return n;
 }
 
-/* File, length unit, number of nodes and of elements of each kind, and the blocks, the first
- * twelve by name. */
+/* Prints file, length unit, number of nodes and of elements of each kind, and the blocks, the first twelve by
+ * name. */
 static void print_elements (const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;
@@ -41,8 +40,8 @@ static void print_elements (const pg_mesh_body *b)
     if (m->nblock > MOST) printf ("  %-18s  and %zu more\n", "blocks", m->nblock - MOST);
 }
 
-/* Names of sets that had to change, since keys of a scene allow fewer characters; users must
- * write the changed name. A set of nodes that a set of sides has named already is left out. */
+/* Prints names of sets that had to change, since keys of a scene allow fewer characters; users must write the
+ * changed name. A set of nodes that a set of sides has named already is left out. */
 static void print_renamed (const pg_mesh *m)
 {
     char clean[57];
@@ -56,8 +55,8 @@ static void print_renamed (const pg_mesh *m)
     }
 }
 
-/* What of the files of a mesh and of points is not used; sets that have the name of a side of the body but
- * for their case. */
+/* Prints which parts of the files of a mesh and of points are not used, and sets whose name differs from that
+ * of a side of the body (left ...) by upper case letters only. */
 void plan_passed (const pg_problem *p)
 {
     const pg_mesh *m = &p->part.mesh;
@@ -78,8 +77,9 @@ void plan_passed (const pg_problem *p)
                         "letters counts\n", p->cells.given[k].name, sides[s]);
 }
 
-/* Of bodies without a mesh only what of a file of points is not used. Volume and surface show a wrong length
- * unit; the worst quality (scaled Jacobian, 1 is perfect) shows a bad element with its number. */
+/* Prints the mesh; for a body without one only the unused columns of a points file. Volume and surface show a
+ * wrong length unit; the worst quality (scaled Jacobian, 1 is perfect) shows a bad element with its
+ * number. */
 void plan_mesh (const pg_problem *p)
 {
     const pg_mesh_body *b = &p->part;

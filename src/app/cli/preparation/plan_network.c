@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the cracks of a scene amount to, for check and cracks: how many, how long, in which directions, how
- * near to each other, and what touching, crossing and leaving the body mean. */
+ * Description of the cracks of a scene, for the commands check and cracks: how many, how long, in which
+ * directions, how near to each other, and how many touch, cross or leave the body. */
 #include "cli.h"
 #include <math.h>
 #include <stdio.h>
 
-/* A length with a suitable unit. */
+/* Writes a length x (m) with a suitable unit. */
 static const char *length_of (double x, char out[32])
 {
     static const struct { double unit; const char *name; } units[] = {
@@ -19,7 +19,7 @@ static const char *length_of (double x, char out[32])
 
 static void print_row (const char *name, const char *text) { printf ("  %-18s  %s\n", name, text); }
 
-/* Number, sizes, and what slots take. */
+/* Prints number and sizes of the cracks, and the share of the body that slots remove. */
 static void print_sizes (const pg_network *n, int dim)
 {
     char a[32], b[32], text[200];
@@ -51,7 +51,7 @@ static void print_sizes (const pg_network *n, int dim)
     print_row ("slots take", text);
 }
 
-/* Directions and neighbours. */
+/* Prints directions, distances, and cracks that touch, leave or miss the body. */
 static void print_order (const pg_network *n, int dim)
 {
     char a[32], text[200];
@@ -93,7 +93,7 @@ static void print_order (const pg_network *n, int dim)
     }
 }
 
-/* One line for every entry of the scene that holds cracks. */
+/* Prints one line for every entry of the scene that holds cracks. */
 static void print_sets (const pg_crack_statistics *s)
 {
     char a[32], b[32], text[200];

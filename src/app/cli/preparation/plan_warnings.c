@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Warnings of a run or of its plan. They are told with -q too, on stderr: who asks for quiet wants no
- * progress, not to be kept from knowing that an answer is wrong. */
+ * Warnings of a run or of its plan. They are printed with -q too, on stderr: who asks for quiet wants no
+ * progress, but has to know that an answer may be wrong. */
 #include "cli.h"
 #include <stdio.h>
 #include <string.h>
 
-/* Was this warning among those told before? */
+/* 1: this warning is in `before`, whose warnings were printed already. */
 static int was_before (const pg_statistics *before, const char *warning)
 {
     for (size_t k = 0; before && k < before->nwarning; k++)

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Everything between a command line and the first step of a run, in its order. run and check both pass
- * through here, so that what the one refuses the other refuses with the same words. */
+ * Everything between a command line and the first step of a run, in its order. Both run and check pass
+ * through here, so that they refuse the same scenes with the same words. */
 #include "cli.h"
 #include <stdlib.h>
 
-/* 1: the environment may be changed here; 0: the user, or the program that started this one, has settled the
+/* 1: this program may change the environment; 0: the user, or the program that started this one, has set the
  * threads of libraries. */
 static int environment_ours;
 
 void settle_blas_too (void) { environment_ours = 1; }
 
-/* Two BLAS threads gain 7 % of a factorization with 4 000 unknowns on an idle machine, and
- * lose half the speed on a busy one: below 50 000 unknowns in 2D and 10 000 in 3D one thread
- * is used. By the environment where BLAS is not loaded yet, which then starts no threads that nobody needs:
- * each of them would wait awake for some 20 ms. */
+/* Sets the threads of BLAS. Two threads gain 7 % of a factorization with 4 000 unknowns on an idle machine,
+ * and lose half the speed on a busy one: below 50 000 unknowns in 2D and 10 000 in 3D one thread is used.
+ * Where BLAS is not loaded yet the environment is set, so that it starts no idle threads: each would spin for
+ * some 20 ms. */
 static void settle_blas (const pg_problem *p)
 {
     size_t unknowns = p->cloud.n * (size_t) pg_problem_unknowns (p), enough = p->dim == 3 ? 10000 : 50000;
@@ -24,7 +24,8 @@ static void settle_blas (const pg_problem *p)
     pg_linear_threads (threads);
 }
 
-/* A method that cannot even begin with this body is a fault of the scene. */
+/* Turns a failure of the method with this body (singular or indefinite matrix, no equilibrium) into a fault
+ * of the scene. */
 static pg_status refuse (const preparation *r, pg_status status)
 {
     char text[1024];

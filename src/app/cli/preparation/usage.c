@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What each command says of itself: the synopsis and the options, at most 100 columns wide. Shown by
- * `perigal help COMMAND`, by --help, and after a command line that could not be understood; .ci/man makes
- * the man page of it. */
+ * The help of each command: synopsis and options, at most 100 columns wide. Shown by `perigal help COMMAND`,
+ * by --help, and after a command line that could not be understood; .ci/man makes the man page of it. */
 #include "cli.h"
 #include <string.h>
 

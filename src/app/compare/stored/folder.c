@@ -13,7 +13,7 @@
 enum { MOST_SETTINGS = 64 };
 
 /* ---- scene --------------------------------------------------------------------------------------------- */
-/* Four hexadecimal digits, as behind \u; -1: they are none. */
+/* Value of four hexadecimal digits, as after \u; -1: there are none. */
 static long four_digits (const char *s)
 {
     long value = 0;
@@ -35,8 +35,8 @@ static size_t put_code (char *out, long code)
     return n;
 }
 
-/* The code point that an escape of JSON (RFC 8259 section 7) means, *s being behind its backslash and moved
- * behind the escape: \n, \u00e9, or two \u that are a surrogate pair. -1: JSON has no such escape. */
+/* Returns the code point of a JSON escape (RFC 8259 section 7): \n, \u00e9, or two \u that are a surrogate
+ * pair. *s is behind the backslash and is moved behind the escape. -1: JSON has no such escape. */
 static long escape (const char **s)
 {
     static const char letters[] = "\"\\/bfnrt", meant[] = "\"\\/\b\f\n\r\t";
@@ -53,8 +53,8 @@ static long escape (const char **s)
     return 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
 }
 
-/* The content of a JSON string that begins at s, behind its quote. 0: it is none, holds a zero byte, or does
- * not fit. */
+/* Decodes a JSON string that begins at s, after its quote. 0: it is no such string, holds a zero byte, or
+ * does not fit. */
 static int unescape (const char *s, char *out, size_t size)
 {
     size_t n = 0;
@@ -153,7 +153,7 @@ done:
 }
 
 /* ---- history ------------------------------------------------------------------------------------------- */
-/* Rows stand in the order of time: the last one that is not later than `stamp` is the state of that step. */
+/* Reads the last row of history.csv that is not later than `stamp`; its rows are in the order of time. */
 pg_status pg_compare_history (const char *folder, const char *key, double stamp, double *load_factor,
                               double *time, double *broken)
 {

@@ -8,12 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A field that ends where the body does. */
+/* Context of a sampler: a field that is unknown (NAN) outside the body. */
 typedef struct { pg_sampler field; pg_nearest *points; const pg_problem *problem; } bounded;
 
-/* Samples the field and makes places unknown that are more than sqrt (dim) spacings away from
- * every point: no cell of the body reaches that far. Without this, a fit would extrapolate
- * anywhere. */
+/* Samples the field, and sets values to NAN more than sqrt (dim) spacings away from every point: no cell of
+ * the body reaches that far. Without this, a fit would extrapolate anywhere. */
 static pg_status sample_bounded (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;
@@ -45,7 +44,7 @@ static void free_bounded (void *context)
     pg_free (b);
 }
 
-/* Takes over the field and limits it. */
+/* Makes a sampler that limits `field` to the body, and takes ownership of it. */
 static pg_status bound (pg_sampler *out, const pg_problem *problem, pg_sampler *field)
 {
     pg_status status = PG_OK;
@@ -143,9 +142,8 @@ done:
     return status;
 }
 
-/* Puts the unknowns of the points into the state: coefficients, and for points with rotational
- * degrees of freedom the spacing times the rotations, which is the unknown (doc/method.md,
- * G2). */
+/* Sets the unknowns of the state from fields of result.e: coefficients, and for points with rotational
+ * degrees of freedom the spacing times the rotations, which is the unknown (doc/method.md, G2). */
 static pg_status read_unknowns (pg_stored *s, const char *path, const char *name)
 {
     pg_status status = PG_OK;
@@ -165,10 +163,10 @@ done:
     return status;
 }
 
-/* Chooses the field. With coefficients (for approximations that interpolate the displacements
- * are the same), rotations where points have them, and no broken bonds, the field is that of
- * the run itself. After breaks its shape functions cannot be restored, as result.e does not
- * say which bonds are alive. */
+/* Chooses how the field of a step is sampled. With coefficients in the file (or displacements, if the
+ * approximation interpolates), rotations where points have them, and no broken bonds, the field is that of
+ * the run itself. After breaks its shape functions cannot be restored, as result.e does not say which bonds
+ * are intact. */
 static pg_status read_step (pg_stored *s, const char *path, double broken)
 {
     pg_status status = PG_OK;
@@ -231,8 +229,8 @@ done:
     return status;
 }
 
-/* The path is tested against the size of the buffer with room for the names of the other files
- * of the folder. `refresh` gives the force the bonds that the pre-cracks leave. */
+/* Opens a result folder. The path must leave room in the buffer for the names of the other files of the
+ * folder. `refresh` gives the force the bonds that the pre-cracks leave. */
 pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int threads)
 {
     pg_status status = PG_OK;
@@ -244,7 +242,7 @@ pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int thr
     PG_ALLOC (s, 1);
     if ((size_t) snprintf (path, sizeof path, "%s/result.e", folder) >= sizeof path - 16)
         PG_FAIL (PG_E_USAGE, "the path is too long");
-    PG_TRY (pg_exodus_join (folder, 0));               /* of ranks whose run has not ended */
+    PG_TRY (pg_exodus_join (folder, 0));               /* parts of ranks whose run has not ended */
     PG_TRY (pg_stored_scene (&s->scene, folder));
     PG_TRY (pg_problem_build (&s->problem, s->scene, threads));
     s->force = pg_force_of (s->problem);
@@ -264,7 +262,7 @@ done:
     return status;
 }
 
-/* The sampler goes first: it borrows everything else. */
+/* Frees a stored result; the sampler first, since it borrows everything else. */
 void pg_stored_free (pg_stored **stored)
 {
     pg_stored *s = *stored;
