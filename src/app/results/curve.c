@@ -147,8 +147,8 @@ done:
 }
 
 /* ---- what it says -------------------------------------------------------------------------------------- */
-/* 1 if nothing loads the body at the start: then the curve begins at the origin. A velocity
- * has not moved anything yet. */
+/* 1 if nothing loads the body at the start, so that the curve begins at the origin. A velocity has not moved
+ * anything then. */
 static int from_rest (const pg_problem *p)
 {
     double moves = 0;
@@ -165,13 +165,12 @@ static int from_rest (const pg_problem *p)
     return !(most_of_all (p, moves) > 0);
 }
 
-/* 1 with event stepping. */
+/* 1: the run uses event stepping. */
 static int by_events (const pg_result *r) { return pg_solver_settled (r->solver)->event; }
 
-/* Slope through the origin, by least squares, over the rows before the peak that carry at most
- * 40 % of it: the straight part of usual curves. If there are none, and with event stepping,
- * that of the first row: there the body is unbroken, whereas all later rows have lost bonds at
- * every load. */
+/* Initial stiffness, N/m: slope through the origin, by least squares, over the rows before the peak with at
+ * most 40 % of its force, the straight part of usual curves. If there are none, and with event stepping, that
+ * of the first row: there the body is unbroken, whereas all later rows have lost bonds at every load. */
 static double initial_stiffness (const pg_result *r, size_t peak)
 {
     const result_curve *c = &r->curve;
@@ -184,8 +183,8 @@ static double initial_stiffness (const pg_result *r, size_t peak)
     return c->x[0] != 0 ? c->y[0] / c->x[0] : NAN;
 }
 
-/* What a load does over its set: the least and the largest of component k, the largest of the others. Those
- * that follow facets are asked there. */
+/* Finds least and largest value of component k of a load over its set, and the largest size of its other
+ * components. A load on facets is evaluated at their centres. */
 static void range_of (const pg_problem *p, const pg_load *load, int k, double *least, double *most,
                       double *others)
 {
@@ -203,9 +202,9 @@ static void range_of (const pg_problem *p, const pg_load *load, int k, double *l
     }
 }
 
-/* Is the force of the curve times the displacement of the curve the work of the load? Where the load acts
- * along one axis, alike at all points: the mean displacement does not tell the work of tractions that turn
- * over the set or balance themselves, and the ratio of both is no stiffness. */
+/* 1: force times displacement of the curve is the work of the load: it acts along one axis, equally at all
+ * points. The mean displacement does not give the work of tractions that change over the set or balance each
+ * other, and then the ratio of both is no stiffness. */
 static int is_conjugate (const pg_problem *p, const pg_load *load, int k)
 {
     double least = INFINITY, most = -INFINITY, others = 0;
@@ -229,8 +228,8 @@ static const double *more_of (const pg_result *r, size_t row)
     return r->curve.more + row * (FIRST_GAUGE + r->problem->boundary.ngauge);
 }
 
-/* The peak is the row of largest |force| of all rows in which every tip of a crack was judged; of all rows
- * where there is no such row, which `judged` tells. */
+/* Finds the peak: the row of largest |force| among the rows in which every crack tip was checked; among all
+ * rows if there is no such row (`judged` 0). */
 void pg_result_curve_read (pg_result *r)
 {
     result_curve *c = &r->curve;
@@ -280,7 +279,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     pg_json_shut (j);
 }
 
-/* The peak in words: force, displacement, step, time or load factor, and the gauges there. */
+/* Writes the peak in words: force, displacement, step, time or load factor, and the gauges there. */
 static void tell_peak (const pg_result *r, char *out, size_t size)
 {
     const result_peak *k = &r->curve.peak;
@@ -306,7 +305,7 @@ static void tell_peak (const pg_result *r, char *out, size_t size)
                   k->left_out);
 }
 
-/* The new crack in words: its length in 2D, else its area, and the dissipated energy per area. */
+/* Writes the new crack in words: its length in 2D, else its area, and the dissipated energy per area. */
 static void tell_crack (const pg_result *r, char *out, size_t size)
 {
     const result_crack *c = &r->crack;
@@ -333,7 +332,8 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
         damped ? " (what the run has dissipated holds the damping of the relaxation)" : "");
 }
 
-/* Lines that do not apply are skipped, so k counts those that exist. */
+/* Writes line k of the results; lines that do not apply are skipped, so that k counts those that exist. 0: no
+ * more. */
 int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 {
     const result_peak *p = &r->curve.peak;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The fields of a run and their writer, an entry of the catalogue (output.format). Ranks that divide the body
- * write those of the points that they own, as parts of the whole; where every rank holds the whole body the
- * first one writes. */
+ * write the fields at the points that they own, as parts of the whole; where every rank holds the whole body
+ * the first one writes. */
 #include "results_private.h"
 #include <stdio.h>
 #include <string.h>
 
-/* How many points each block has on all ranks together; before files are opened, where one rank alone may
- * fail. */
+/* Counts the points of each block on all ranks together; this precedes the opening of files, in which one
+ * rank alone may fail. */
 static pg_status count_blocks (pg_result *r)
 {
     result_fields *f = &r->fields;
@@ -72,7 +72,7 @@ done:
     return status;
 }
 
-/* The points that this process owns, and their numbers in the whole. */
+/* Copies the points that this process owns, with their numbers in the whole body. */
 static pg_status copy_own (pg_result *r, int64_t **number)
 {
     pg_status status = PG_OK;
@@ -113,7 +113,7 @@ done:
     return status;
 }
 
-/* Values of all points become those of the points that are owned, one after the other. */
+/* Keeps of an array with values of all points only those of owned points, one after the other. */
 void pg_result_keep_own (const pg_result *r, size_t components, double *value)
 {
     const pg_subdomain *s = r->problem->cloud.subdomain;
@@ -125,7 +125,7 @@ void pg_result_keep_own (const pg_result *r, size_t components, double *value)
     }
 }
 
-/* What one rank cannot write no rank has written. */
+/* Writes a moment; if one rank fails all ranks fail, and the moment does not count. */
 pg_status pg_result_fields_write (pg_result *r, double time)
 {
     result_fields *f = &r->fields;
@@ -146,7 +146,8 @@ pg_status pg_result_fields_sync (const pg_result *r)
                            : pg_file_sync (pg_result_path (r, f->writer->file, path, sizeof path));
 }
 
-/* All have written their last moment. */
+/* Lets the writer prepare what a finished result has in addition, such as crack faces; all ranks have written
+ * their last moment. */
 pg_status pg_result_fields_complete (pg_result *r, const pg_state *state)
 {
     result_fields *f = &r->fields;

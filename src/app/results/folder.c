@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Who may write into a result folder: one run at a time, none over the results of an
- * unfinished run, and none over a scene that no run put there. Also the copy of the scene,
- * which makes a folder complete: a result can be opened again with nothing but its folder and
- * the files that the scene names. */
+ * Which run may write into a result folder: one at a time, none over the results of an unfinished run, and
+ * none over a scene that no run put there. Also the copy of the scene, which makes a folder complete: a
+ * result can be opened again with nothing but its folder and the files that the scene names. */
 #include "results_private.h"
 #include <dirent.h>
 #include <errno.h>
@@ -20,7 +19,7 @@
 static const char copied[] = "\n# copied by perigal run from ";
 
 /* ---- one run at a time --------------------------------------------------------------------------------- */
-/* The process that the lock names, and its host; 0 if it names none. */
+/* Returns the process that the lock names, and its host; 0 if it names none. */
 static long owner_of (int file, char host[128])
 {
     char text[200] = "";
@@ -31,10 +30,10 @@ static long owner_of (int file, char host[128])
     return process;
 }
 
-/* Is the process that is named in the lock still there? Only a process of this host can be asked. */
+/* 1: the process named in the lock still runs. Only processes of this host can be tested. */
 static int is_alive (long process) { return process && (kill ((pid_t) process, 0) == 0 || errno == EPERM); }
 
-/* Is the open file still the one at `path`, or has its owner removed it in between? */
+/* 1: the open file is still the one at `path`; 0: its owner has removed it in between. */
 static int is_still (int file, const char *path)
 {
     struct stat own, present;
@@ -42,11 +41,10 @@ static int is_still (int file, const char *path)
            && own.st_dev == present.st_dev;
 }
 
-/* Takes the lock on an open run.lock and writes this process into it. The system's lock
- * (flock) ends with its process, even a killed one. Where a file system has no such locks, or
- * another host may hold it, what the file says counts: a process of this host is asked whether
- * it lives. *retry = 1: the owner has removed the file in between, so that the lock is on a
- * file that has no name any more. */
+/* Takes the lock on an open run.lock and writes this process into it. The system's lock (flock) ends with its
+ * process, even a killed one. Where a file system has no such locks, or another host may hold it, what the
+ * file says counts: for a process of this host it is tested whether it runs. *retry = 1: the owner has
+ * removed the file in between, so that the lock is on a file that has no name any more. */
 static pg_status claim (int file, const char *path, const char *folder, int *retry)
 {
     pg_status status = PG_OK;
@@ -67,7 +65,7 @@ static pg_status claim (int file, const char *path, const char *folder, int *ret
             PG_E_USAGE,
             "%s may be in use by a run on another host (process %ld on %s): if that run is over, remove %s",
             folder, process, host, path);
-    /* The text serves people, and hosts that do not see the lock of this one. */
+    /* The text is for users, and for hosts on which the lock of this one is not visible. */
     int n = snprintf (text, sizeof text, "%ld %s\n", (long) getpid (), *here ? here : "unknown");
     if (ftruncate (file, 0) != 0 || pwrite (file, text, (size_t) n, 0) != n)
         PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
@@ -75,7 +73,7 @@ done:
     return status;
 }
 
-/* Repeats until the locked file is the one that the name refers to. */
+/* Locks the folder; repeats until the locked file is the one that the name refers to. */
 pg_status pg_result_lock (const char *folder, int *lock)
 {
     pg_status status = PG_OK;
@@ -95,7 +93,7 @@ done:
     return status;
 }
 
-/* The file is removed before the lock ends, see claim. */
+/* Unlocks the folder. The file is removed before the lock ends: `claim` relies on that order. */
 void pg_result_unlock (const char *folder, int *lock)
 {
     char path[4096];
@@ -173,8 +171,8 @@ static int same_file (const char *a, const char *b)
            && one.st_dev == other.st_dev;
 }
 
-/* A run in the folder of its own scene leaves that as it is. Written beside: a run that is killed leaves no
- * part of it, which would pass for a scene of the user. */
+/* Writes scene.yaml, unless the folder is that of the scene itself. It is written under another name and
+ * renamed, so that a killed run leaves no part of it, which would pass for a scene of the user. */
 pg_status pg_result_copy_scene (const char *folder, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -209,7 +207,7 @@ static int there_is (const char *folder, const char *name)
     return lstat (path, &s) == 0;
 }
 
-/* Rows of history.csv behind the header. */
+/* Counts the rows of history.csv after the header; 0 without the file. */
 static pg_status count_rows (const char *folder, long *rows)
 {
     char path[4096], *text = NULL;
@@ -222,8 +220,8 @@ static pg_status count_rows (const char *folder, long *rows)
     return status;
 }
 
-/* scene.yaml of the folder may be the scene of this run or the copy of a run; any other one is
- * the user's and must not be overwritten. */
+/* Fails if scene.yaml of the folder is neither the scene of this run nor the copy of a run: then it is the
+ * user's and must not be overwritten. */
 static pg_status must_not_be_the_users (const char *folder, const pg_scene *scene, const char *present)
 {
     pg_status status = PG_OK;
@@ -251,9 +249,9 @@ done:
     return status;
 }
 
-/* Refusals, in this order: not a folder; a scene of the user; a checkpoint; rows of another
- * scene without a report. Rows without a report are those of a run that was killed before its
- * first checkpoint: the same scene may begin anew there, another one may not. */
+/* Fails if a run of this scene may not write into the folder. Reasons, in this order: not a folder; a scene
+ * of the user; a checkpoint; rows of another scene without a report. Rows without a report are those of a run
+ * that was killed before its first checkpoint: the same scene may begin anew there, another one may not. */
 pg_status pg_result_may_open (const char *folder, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -285,7 +283,8 @@ done:
     return status;
 }
 
-/* As a run leaves it that is killed before it has locked it; its other ranks may be further. */
+/* 1: the folder has no entry but `ranks`, as after a run that was killed before it locked the folder; its
+ * other ranks may have been further. */
 static int is_empty (const char *folder)
 {
     int n = 0;
@@ -299,7 +298,8 @@ static int is_empty (const char *folder)
     return n == 0;
 }
 
-/* Its copy of the scene comes before all else but the lock. */
+/* 1: a run of this scene ended before its first checkpoint. The copy of the scene is written before all files
+ * but the lock. */
 int pg_result_left_early (const char *folder, const pg_scene *scene)
 {
     char path[4096], *present = NULL, *copy = NULL;
@@ -313,8 +313,7 @@ int pg_result_left_early (const char *folder, const pg_scene *scene)
     return ran && same;
 }
 
-/* The report of a finished run is not touched: it does not keep another run from opening the
- * folder. */
+/* Removes what keeps another run from opening the folder; the report of a finished run does not and stays. */
 pg_status pg_result_discard (const char *folder)
 {
     pg_status status = PG_OK;
@@ -334,7 +333,7 @@ done:
     return status;
 }
 
-/* Folders of ranks are numbered without gaps. */
+/* Removes folders of ranks beyond the present ones, which are numbered without gaps, and earlier fields. */
 void pg_result_drop_earlier (const pg_result *r)
 {
     char path[4096];
@@ -349,7 +348,7 @@ void pg_result_drop_earlier (const pg_result *r)
     pg_writer_clear (r->fields.writer, r->folder, r->fields.request.share ? r->fields.share.size : 0);
 }
 
-/* Ranks that were killed one by one may have left gaps between the numbers. */
+/* Removes all folders of ranks; ranks that were killed one by one may have left gaps between the numbers. */
 void pg_result_drop_finished_ranks (const char *folder)
 {
     char path[4096];
@@ -386,7 +385,7 @@ done:
     return status;
 }
 
-/* The order of doc/notation.md. */
+/* Name of a Voigt component, in the order of doc/notation.md. */
 const char *pg_result_voigt (int dim, int k)
 {
     static const char *const part[4][6] = {

@@ -44,7 +44,8 @@ enum { PIECE_COLUMNS = sizeof piece_columns / sizeof *piece_columns,
        TRIANGLE_COLUMNS = sizeof triangle_columns / sizeof *triangle_columns,
        FRONT_COLUMNS = sizeof front_columns / sizeof *front_columns };
 
-/* Refuses what cannot be measured: no cracks in the plane, a force without integrals. */
+/* Checks output.stress_intensity: J and K cannot be measured in 1D, without cracks, or for forces without
+ * integrals. */
 void pg_result_paths_check (const pg_scene *scene, const pg_problem *p)
 {
     static const char *const key = "output.stress_intensity";
@@ -63,7 +64,7 @@ void pg_result_paths_read (pg_result *r, const pg_scene *scene)
     r->tips.measuring = pg_scene_bool (scene, "output.stress_intensity");
 }
 
-/* Are there columns of tips? */
+/* 1: there are columns for tips or fronts. */
 static int has_tips (const pg_result *r) { return r->tips.grows || r->tips.measuring; }
 
 static int in_space (const pg_result *r) { return r->problem->dim == 3; }
@@ -88,8 +89,7 @@ void pg_result_paths_column (const pg_result *r, size_t i, char *out, size_t siz
     }
 }
 
-/* What is known of a tip in this state: nothing where there is no room for a ring, or of one that has
- * ended. */
+/* Finds J, K and more of a tip in this state; NAN if there is no room for a ring, or if the tip has ended. */
 static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_tip_values *out)
 {
     pg_status status = PG_OK;
@@ -111,7 +111,7 @@ done:
     return status;
 }
 
-/* What the vertices of an open front bear, measured here. */
+/* Measures J and K at the vertices of an open front. */
 static pg_status measure_front (pg_result *r, const pg_state *state, size_t front, const pg_front *f)
 {
     result_tips *t = &r->tips;
@@ -134,8 +134,8 @@ done:
     return status;
 }
 
-/* What all tips or vertices bear, once for both tables: what the solver has measured in its search for
- * growth, or else here. */
+/* Finds the values of all tips or vertices, once for both tables: those that the solver has measured in its
+ * search for growth, else measured here. */
 static pg_status measure (pg_result *r, const pg_state *state)
 {
     result_tips *t = &r->tips;
@@ -159,7 +159,7 @@ done:
     return status;
 }
 
-/* The largest J of what has become of front `of` of the scene; NAN: it has ended. */
+/* Largest J of all fronts that have come from front `of` of the scene; NAN: they have ended. */
 static double largest_J (const pg_result *r, const pg_state *state, long of)
 {
     size_t nfront;
@@ -168,17 +168,17 @@ static double largest_J (const pg_result *r, const pg_state *state, long of)
     for (size_t f = 0; f < nfront; f++)
         for (size_t i = 0; front[f].of == of && i < r->tips.nvalue; i++)
             if (r->tips.value[i].id == front[f].id)
-                J = fmax (J, r->tips.value[i].J);      /* of NAN and a number: the number */
+                J = fmax (J, r->tips.value[i].J);      /* fmax ignores NAN */
     return J;
 }
 
-/* Length or area grown since the start. */
+/* Length (m, 2D) or area (m2, 3D) grown since the start. */
 static double grown (const pg_state *state)
 {
     return state->paths ? state->paths->length : state->surfaces ? state->surfaces->area : 0;
 }
 
-/* The tips and fronts of the scene are the first of the state. */
+/* Writes the columns of history.csv. The tips and fronts of the scene are the first of the state. */
 pg_status pg_result_paths_row (pg_result *r, const pg_state *state, double *row)
 {
     pg_status status = PG_OK;
@@ -205,7 +205,7 @@ static pg_status open_table (const pg_result *r, const char *name, pg_table **ou
     return from ? pg_table_open (out, path, n, columns, rows) : pg_table_create (out, path, n, columns);
 }
 
-/* A triangle of crack number k. */
+/* Writes a row for a triangle of crack number k. */
 static pg_status put_triangle (pg_result *r, const double when[2], long front, size_t k, const double *a,
                                const double *b, const double *c)
 {
@@ -215,7 +215,7 @@ static pg_status put_triangle (pg_result *r, const double when[2], long front, s
     return pg_table_row (r->tips.pieces, row);
 }
 
-/* The cracks of the scene: pieces, in space fans about their middle. */
+/* Writes rows for the cracks of the scene: pieces, in 3D fans of triangles about their centre. */
 static pg_status put_first (pg_result *r, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
@@ -247,7 +247,7 @@ pg_status pg_result_paths_create (pg_result *r, const result_marks *from)
     pg_status status = PG_OK;
     int space = in_space (r);
     const pg_cracks *cracks = pg_state_cracks (r->problem, NULL);
-    if (!from) {                                       /* of an earlier run */
+    if (!from) {                                       /* remove tables of an earlier run */
         PG_TRY (pg_result_remove (r, "tips.csv"));
         PG_TRY (pg_result_remove (r, "fronts.csv"));
         PG_TRY (pg_result_remove (r, "cracks.csv"));
@@ -265,8 +265,8 @@ done:
     return status;
 }
 
-/* Pieces that are new since the last row. That which a crack of the scene has split off when it began to grow
- * is known already. */
+/* Writes the pieces that are new since the last row. A piece that a crack of the scene has split off when it
+ * began to grow is in the table already. */
 static pg_status write_pieces (pg_result *r, const pg_state *state, const pg_step *step)
 {
     result_tips *t = &r->tips;
@@ -298,7 +298,7 @@ done:
     return status;
 }
 
-/* After pg_result_paths_row, whose values it writes. */
+/* Writes the rows of all tables; called after pg_result_paths_row, whose values it uses. */
 pg_status pg_result_paths_write (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -326,7 +326,8 @@ done:
 }
 
 /* ---- the report ---------------------------------------------------------------------------------------- */
-/* What cracks that grew have taken over what the fracture energy along them asks for; NAN: not known. */
+/* Energy that the growth of cracks has dissipated, over the fracture energy of the new faces; NAN: not
+ * known. */
 double pg_result_paths_ratio (const pg_result *r)
 {
     const pg_statistics *s = pg_solver_report_now (r->solver);
@@ -401,7 +402,7 @@ void pg_result_paths_close (pg_result *r)
 }
 
 /* ---- reading back -------------------------------------------------------------------------------------- */
-/* One row as a crack; it is sided unless it is of the scene. */
+/* Reads a row of cracks.csv as a crack in 2D; it is sided unless it is of the scene (step 0). */
 static pg_status read_piece (pg_cracks *out, const double *row)
 {
     pg_status status = PG_OK;
@@ -415,7 +416,7 @@ done:
     return status;
 }
 
-/* A triangle likewise, if it has an area. */
+/* Reads a row as a triangle in 3D, if it has an area. */
 static pg_status read_triangle (pg_cracks *out, const double *row)
 {
     pg_status status = PG_OK;
@@ -433,7 +434,8 @@ done:
     return status;
 }
 
-/* Times in result.e may be a rounding later than the step (write_fields in result.c). */
+/* Reads the cracks that exist at a time of result.e, which may be a rounding later than the step
+ * (write_fields in result.c). */
 pg_status pg_result_cracks (pg_cracks *out, const char *folder, double time)
 {
     pg_status status = PG_OK;

@@ -20,7 +20,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The columns that every table has, with their units. */
+/* The columns that every history.csv has, with their units. */
 static const char *const first_columns[] = { "step [1]", "time [s]", "load_factor [1]" };
 static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinetic [J]",
                                             "energy_external [J]", "energy_dissipated [J]",
@@ -28,7 +28,7 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
                                             "residual [1]",        "utilisation [1]",
                                             "event [1]",           "level [1]" };
 
-/* Columns of event stepping with solver.on_instability: hold or dynamic, where growth goes on by itself. */
+/* Columns of event stepping with solver.on_instability: hold or dynamic, for unstable growth. */
 static const char *const unstable_columns[] = { "instability [1]", "motion_time [s]", "energy_damping [J]" };
 enum { UNSTABLE_COLUMNS = sizeof unstable_columns / sizeof *unstable_columns };
 static int goes_unstable (const pg_result *r)
@@ -39,18 +39,18 @@ static int goes_unstable (const pg_result *r)
 /* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
-/* Forces and displacements along the axes of the body, moments and rotations about those it can turn about.
- * */
+/* 1: a platen has component k (0 to 2: force and displacement, 3 to 5: moment and rotation about x, y, z) in
+ * this dimension. */
 static int platen_has (const pg_problem *p, int k) { return p->dim == 3 || k < 2 || k == 5; }
 
-/* How many forces and displacements a load has columns of; free strains have none. */
+/* Number of components for which a load has columns of force and displacement; free strains have none. */
 static int columns_of (const pg_problem *p, size_t l)
 {
     const pg_load *load = &p->boundary.load[l];
     return load->platen || load->kind == PG_EIGENSTRAIN ? 0 : pg_load_components (load, p->dim);
 }
 
-/* Numbers of the axes about which a load has a moment beside its force: from (z in the plane) to dim. */
+/* First axis about which a load has a moment beside its force (2D: 2, only z; 3D: 0); 3: it has none. */
 static int first_moment (const pg_problem *p, size_t l)
 {
     int has = p->dim > 1 && columns_of (p, l) && !p->boundary.load[l].cracks
@@ -58,8 +58,8 @@ static int first_moment (const pg_problem *p, size_t l)
     return !has ? 3 : p->dim == 2 ? 2 : 0;
 }
 
-/* The order of the columns here is that of the values in pg_result_history_row. Names are at
- * most 127 bytes. */
+/* Creates or opens the tables. The order of the columns is that of the values in pg_result_history_row. Names
+ * have at most 127 bytes. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
@@ -129,8 +129,8 @@ done:
     return status;
 }
 
-/* 1: the conditions of a load act on facets, over which its displacement is then averaged: the points of a
- * set may lie half a spacing behind them. */
+/* 1: a load acts on facets, over which its displacement is then averaged: the points of its set may lie half
+ * a spacing behind them. */
 static int acts_on_facets (const pg_problem *p, const pg_load *load)
 {
     int held = pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE,
@@ -139,8 +139,8 @@ static int acts_on_facets (const pg_problem *p, const pg_load *load)
            && pg_set_facets (load->set) > 0;
 }
 
-/* Gauss points on the facets of a set that this rank owns: places and areas (NULL: not wanted); returns how
- * many. */
+/* Lists the Gauss points on those facets of a set that this rank owns: positions, m, and areas, m2 (NULL: not
+ * wanted); returns their number. */
 static size_t points_of (const pg_problem *p, const pg_set *set, const pg_quadrature *q, double *x,
                          double *area)
 {
@@ -156,9 +156,9 @@ static size_t points_of (const pg_problem *p, const pg_set *set, const pg_quadra
     return n;
 }
 
-/* Mean displacement of the facets of a load along every axis (dim), on all ranks. Each measures the facets
- * that it owns: the rest may lie at the end of what it holds of the body. Beside cracks at two Gauss points
- * per direction: in the middle of a facet a crack that runs along points may end. */
+/* Mean displacement of the facets of a load along every axis, m (dim), on all ranks. Each rank measures the
+ * facets that it owns: others may lie at the end of its part of the body. With cracks two Gauss points per
+ * direction are used: a crack that runs along points may end in the middle of a facet. */
 static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_load *load, double *mean)
 {
     pg_status status = PG_OK;
@@ -186,14 +186,14 @@ done:
     return status;
 }
 
-/* *out: what component k of a support prescribes at t, in the mean over its facets, or its points, on all
- * ranks. */
+/* *out: the value that a support prescribes for component k at t, averaged over its facets, or its points, on
+ * all ranks. */
 static pg_status prescribed (const pg_problem *p, const pg_load *load, int k, double t, double *out)
 {
     pg_status status = PG_OK;
     const pg_set *set = load->set;
     int facets = acts_on_facets (p, load);
-    double sum[2] = { 0 };                             /* value by weight, weight */
+    double sum[2] = { 0 };                             /* sums of weighted values and of weights */
     size_t dim = (size_t) p->dim, n = facets ? set->nfacet : set->npoint;
     for (size_t i = 0; i < n; i++) {
         size_t at = (size_t) (facets ? set->facet[i] : set->point[i]);
@@ -208,8 +208,8 @@ done:
     return status;
 }
 
-/* Mean of component k over the points of a load, at a place by their shares;
- * 0 for a set without points. Ranks: the share of this one. */
+/* Mean of component k over the points of a load, weighted by load->share if it acts at a position; 0 for a
+ * set without points. With several ranks: the share of this one. */
 static double mean_of (const pg_problem *p, const pg_load *load, const double *u, int dim, int k)
 {
     const pg_set *set = load->set;
@@ -222,16 +222,16 @@ static double mean_of (const pg_problem *p, const pg_load *load, const double *u
     return n > 0 ? sum / n : 0;
 }
 
-/* 1: a support prescribes this component as a displacement, and the body has no unknowns at the points that
- * would show it. */
+/* 1: a support prescribes this component as a displacement, and the points have no unknowns from which it
+ * could be read. */
 static int holds (const pg_problem *p, const pg_load *load, int k)
 {
     return p->method->shape_functions && pg_load_prescribes (load) && !pg_load_rotates (load)
            && load->value[k] && !load->own;
 }
 
-/* *out: displacement of a load along its component k. turned: rotations; facets: means over them, or NULL.
- * Ranks: the share of this one. */
+/* *out: displacement of a load along its component k. turned: rotations of points; facets: means over facets,
+ * or NULL. With several ranks: the share of this one. */
 static pg_status moved_by (const pg_problem *p, const pg_load *load, int k, double t, const double *moved,
                            const double *turned, const double *facets, double *out)
 {
@@ -245,10 +245,10 @@ done:
     return status;
 }
 
-/* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
- * read all of a row but its last two names. In static runs with fixed steps the load factor at
- * the break follows from its time within the step. Most numbers of a row are those of the row
- * before, whose text stays. */
+/* Writes one row per bond that broke in the step. Numbers come first, so that readers of numbers can read all
+ * of a row but its last two names. In quasi-static runs with fixed steps the load factor at the break follows
+ * from its time within the step. Most numbers of a row equal those of the row before, whose text is then used
+ * again. */
 static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const pg_broken *list,
                              double dissipated)
 {
@@ -278,7 +278,7 @@ static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const 
         for (int k = 0; k < EVENT_NUMBERS; k++) {
             cell[k] = text[k];
             if (i > 0 && memcmp (&number[k], &before[k], sizeof *number) == 0) continue;
-            text[k][0] = '\0';                         /* empty: not known */
+            text[k][0] = '\0';                         /* empty cell: not known */
             if (!isnan (number[k])) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
         }
         memcpy (before, number, sizeof before);
@@ -289,8 +289,8 @@ done:
     return status;
 }
 
-/* Ends of a gauge, measured by the rank that is nearest to each; *out: how far they have moved apart, the
- * share of this rank. */
+/* Measures a gauge, each end by the rank that is nearest to it; *out: how far the ends have moved apart, m,
+ * the share of this rank. */
 static pg_status measure_gauge (pg_result *r, const pg_state *state, size_t g, double *out)
 {
     pg_status status = PG_OK;
@@ -309,9 +309,9 @@ done:
     return status;
 }
 
-/* Displacements of the points, *u, and rotations, *turn: those in r->u, 3 n values apart. Without shape
- * functions unknowns are the values of the points, and where these are displacements alone nothing is
- * copied. */
+/* Finds the displacements of the points, *u (m), and rotations, *turn (rad), which stand in r->u from entry 3
+ * n on. Without shape functions the unknowns are the values of the points, and if these are displacements
+ * alone nothing is copied. */
 static pg_status move_points (pg_result *r, const pg_state *state, const double **u, const double **turn)
 {
     pg_status status = PG_OK;
@@ -330,10 +330,9 @@ done:
     return status;
 }
 
-/* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
- * (x) = sum N_j d_j, not coefficients. Gauges are empty if the force knows no field between
- * the points. Ranks
- * fill in what their own points contribute; their sum is the row. What they do together comes before
+/* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u (x) = sum N_j
+ * d_j, not coefficients. Gauges are empty if the force has no field between the points. Each rank fills in
+ * what its own points contribute; the sum over the ranks is the row. Messages between ranks come before
  * anything is written, which may fail on one of them. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
@@ -342,7 +341,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     const pg_problem *p = r->problem;
     const pg_statistics *report = pg_solver_report_now (r->solver);
     size_t n = 0, platens;
-    size_t x = 0, y = 0;                               /* columns of the load-displacement curve */
+    size_t x = 0, y = 0;                               /* columns of displacement and force of the curve */
     double shared = step->dissipated;
     pg_broken *collected = NULL;
     size_t nbroken = step->nbroken;
@@ -386,7 +385,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     n += r->tips.ntip;
     PG_TRY (pg_result_paths_row (r, state, r->table.row + n));
     PG_TRY (pg_result_crack_row (r, state, r->table.row + n + pg_result_paths_columns (r)));
-    /* of cracks every rank knows the whole */
+    /* values of cracks are known on every rank as a whole */
     for (size_t end = n + pg_result_paths_columns (r) + pg_result_crack_columns (r); n < end; n++)
         r->table.row[n] = pg_result_once (r->table.row[n]);
     r->table.row[n++] = report->energy.strain, r->table.row[n++] = report->energy.kinetic,

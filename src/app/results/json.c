@@ -21,8 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the time went, s: search for neighbours, the phases of the solver, writing, estimates,
- * and the total. */
+/* Writes where the time went, s: search for neighbours, the phases of the solver, writing, estimates, and the
+ * total. */
 static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search,
                            double total)
 {
@@ -47,7 +47,8 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_shut (j);
 }
 
-/* Event stepping that holds the load, or moves, where growth goes on by itself: how often, and how long. */
+/* Writes how often growth was unstable in event stepping with solver.on_instability: hold or dynamic, and how
+ * long. */
 static void instability_block (pg_json *j, const pg_result *res, const pg_statistics *r)
 {
     pg_unstable policy = pg_solver_settled (res->solver)->on_instability;
@@ -62,10 +63,10 @@ static void instability_block (pg_json *j, const pg_result *res, const pg_statis
     pg_json_shut (j);
 }
 
-/* Contact of crack faces: pieces, and how they stand in the last state; work of the last solve; the largest
- * overlap of a mean gap over the run, m; of the whole run right-hand sides for compliances, dense solves,
- * changes of status on the way, and seconds of all this, per event or in all. By short range: pairs near each
- * other, and pairs that touch. */
+/* Writes contact of crack faces: pieces, and their status in the last state; work of the last solve; for the
+ * whole run: the largest overlap of a mean gap, m, right-hand sides for compliances, dense solves, changes of
+ * status during solves, and seconds of all this, per event or in all. points: for short-range contact only
+ * the pairs near each other, and the pairs that touch. */
 static void contact_block (pg_json *j, const pg_statistics *r, int points)
 {
     pg_json_open (j, "contact", '{');
@@ -90,7 +91,8 @@ static void contact_block (pg_json *j, const pg_statistics *r, int points)
     pg_json_shut (j);
 }
 
-/* Points of a set that this rank owns, where they are no nodes, and the bonds of all that it owns. */
+/* Counts evaluation points (not nodes) of a bond set that this rank owns, and the bonds of all points that it
+ * owns. */
 static void count_owned (const pg_problem *p, int set, double *points, double *bonds)
 {
     const size_t *first = p->bonds.rows[set].family.start;
@@ -100,8 +102,8 @@ static void count_owned (const pg_problem *p, int set, double *points, double *b
     }
 }
 
-/* Sizes of the problem, steps and events, the work of the solver and of the linear solver, and
- * the energies of the last state (J). */
+/* Writes sizes of the problem, steps and events, the work of the solver and of the linear solver, and the
+ * energies of the last state (J). */
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
 {
     const pg_problem *p = res->problem;
@@ -112,7 +114,8 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     double total[4] = { (double) p->cloud.n, (double) p->bonds.first[PG_BOND_SETS], (double) state->ndof },
            evaluated = p->bonds.rows[PG_POINTS].n ? (double) p->bonds.rows[PG_POINTS].n : total[0];
     const pg_subdomain *s = p->cloud.subdomain;
-    if (s) {                                           /* each point, and its bonds, where it is owned */
+    /* each point and its bonds count on the rank that owns it */
+    if (s) {
         total[0] = (double) s->nowned, total[1] = 0, total[2] *= (double) s->nowned / (double) s->n;
         for (int set = 0; set < PG_BOND_SETS; set++) count_owned (p, set, &total[3], &total[1]);
         if (pg_ranks_sum (4, total) != PG_OK) total[0] = total[1] = total[2] = total[3] = 0;
@@ -162,8 +165,8 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     if (contact) contact_block (j, r, points);
 }
 
-/* Stages of loading: how each ended, energies and openings of gauges then; those that the run did not come to
- * the end of have their name alone. What a stage did itself is the difference to the one before. */
+/* Writes stages of loading: how each ended, energies and openings of gauges then; a stage that the run has
+ * not finished has its name alone. What a stage did itself is the difference to the one before. */
 static void stages_block (pg_json *j, const pg_result *res)
 {
     size_t n;
@@ -195,7 +198,7 @@ static void stages_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* The files that the scene names, with their hashes. */
+/* Writes the files that the scene names, with their hashes. */
 static void files_block (pg_json *j, const pg_result *res)
 {
     char whole[PATH_MAX];
@@ -211,8 +214,8 @@ static void files_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* The error estimate. With integration at the nodes stress recovery sees the roughness of the
- * stress only, so the estimate is called a lower bound. */
+/* Writes the error estimate. With integration at the nodes stress recovery sees only the roughness of the
+ * stress, so the estimate is called a lower bound. */
 static void estimate_block (pg_json *j, const pg_result *res)
 {
     const pg_estimate *e = pg_result_estimate (res);
@@ -227,8 +230,7 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* The patch test of the discretization, made before the first step; missing if it was not
- * measured. */
+/* Writes the patch test of the discretization, made before the first step; nothing if it was not measured. */
 static void patch_block (pg_json *j, const pg_problem *p)
 {
     if (!p->quality.patch.measured) return;
@@ -243,7 +245,7 @@ static void patch_block (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
-/* What forces and moments miss of balance, over the loads; missing if it was not measured. */
+/* Writes the imbalance of forces and moments, relative to the loads; nothing if it was not measured. */
 static void balance_block (pg_json *j, const pg_problem *p, const pg_statistics *r)
 {
     if (r->balance.states == 0) return;
@@ -255,7 +257,7 @@ static void balance_block (pg_json *j, const pg_problem *p, const pg_statistics 
     pg_json_shut (j);
 }
 
-/* The new crack, if any bond has broken. */
+/* Writes the new crack, if any bond has broken. */
 static void crack_block (pg_json *j, const pg_result *res)
 {
     if (!res->crack.found) return;
@@ -263,20 +265,20 @@ static void crack_block (pg_json *j, const pg_result *res)
     pg_json_text (j, "kind", res->tips.grows ? "facets" : "estimate");
     pg_json_number (j, "area", res->crack.area);
     if (res->problem->dim == 2) pg_json_number (j, "length", res->crack.length);
-    /* of a relaxation it would hold fictitious damping */
+    /* relaxation: dissipated energy would contain fictitious damping */
     int damped = (pg_solver_settled (res->solver)->flags & PG_SOLVER_STAGED) != 0;
     pg_json_number (j, "dissipated_per_area", damped ? NAN : res->crack.dissipated);
     pg_json_shut (j);
 }
 
-/* Of ranks that which has taken most. */
+/* Peak memory of this process, bytes; with several ranks the largest. */
 static size_t peak_of_ranks (void)
 {
     double peak = (double) pg_memory_process_peak ();
     return pg_ranks_ask (1, &peak) == PG_OK ? (size_t) peak : 0;
 }
 
-/* The criterion in words; with several materials one text for each. */
+/* Writes the criterion in words; with several materials one text for each. */
 static void criteria (pg_json *j, const pg_problem *p)
 {
     char text[512] = "";
@@ -289,7 +291,7 @@ static void criteria (pg_json *j, const pg_problem *p)
     if (p->nmaterial > 1) pg_json_shut (j);
 }
 
-/* The strength of the scene beside the one in use where cracks begin. */
+/* Writes the strength that the scene asks for and the one in use where cracks begin. */
 static void strengths (pg_json *j, const pg_problem *p)
 {
     pg_strength s;
@@ -312,7 +314,7 @@ static void strengths (pg_json *j, const pg_problem *p)
     if (any) pg_json_shut (j);
 }
 
-/* What varies from place to place, under the name of its material. */
+/* Writes the properties that vary with position, for each material. */
 static void variations (pg_json *j, const pg_problem *p)
 {
     char text[300];
@@ -335,7 +337,7 @@ static void variations (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
-/* The file appears whole or not at all (pg_json_close). */
+/* Writes report.json; the file appears whole or not at all (pg_json_close). */
 pg_status pg_result_json (pg_result *res, const pg_state *state, const char *failure, double search,
                        double total)
 {
@@ -344,7 +346,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     char path[4096], note[400];
     const pg_statistics *r = pg_solver_report (res->solver, state);
     snprintf (path, sizeof path, "%s/report.json", res->folder);
-    pg_status made = pg_json_create (&j, path);        /* ranks ask each other, also if one cannot write */
+    pg_status made = pg_json_create (&j, path);        /* all ranks go on, as they exchange messages below */
     pg_json_open (j, NULL, '{');
     pg_json_text (j, "version", PG_VERSION);
     pg_json_text (j, "scene", res->scene);

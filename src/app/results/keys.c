@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The keys of the section `output` of a scene: path, kind, unit, range, default, choices and
- * the text of the documentation. Which names of fields and sets are allowed depends on the
- * dimension and on the method; check.c, average.c and crack_tips.c test that when the problem
- * is known. */
+ * The keys of the section `output` of a scene: path, kind, unit, range, default, choices and the text of the
+ * documentation. Which names of fields and sets are allowed depends on the dimension and on the method;
+ * check.c, average.c and tip_columns.c test that when the problem is known. */
 #include "perigal/output.h"
 #include "perigal/scene.h"
 

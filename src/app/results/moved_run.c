@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A run that goes on among other processes than those that wrote its checkpoint: more or fewer ranks, one
- * process alone, ranks that divide the body or that hold all of it. What its files hold is divided anew:
- * fields so far go into files of the points that are owned now, tables are copied to the ranks. The
- * checkpoints and fields of before are removed only when the new processes have all written checkpoints of
- * their own, so that a run that is killed in between goes on from either. */
+ * A run that continues on other processes than those that wrote its checkpoint: more or fewer ranks, one
+ * process alone, ranks that divide the body or that hold all of it. Its files are divided anew: earlier
+ * fields go into files of the points that are owned now, tables are copied to the ranks. The earlier
+ * checkpoints and fields are removed only when the new processes have all written checkpoints of their own,
+ * so that a run that is killed in between can continue from either. */
 #include "resume.h"
 #include <errno.h>
 #include <stdio.h>
@@ -18,14 +18,14 @@ void parts_path (char *out, size_t size, const char *folder, int part, int fresh
 }
 
 /* ---- who wrote it -------------------------------------------------------------------------------------- */
-/* By as many processes as there are now, which share as much. */
+/* 1: a checkpoint of `count` processes that divide the body or not is one of the present processes. */
 static int is_own (int count, int divided)
 {
     return count == pg_rank_count () && divided == (pg_ranks_now () != NULL);
 }
 
-/* 1: a checkpoint of these processes, and none of others beside it: the usual case, for which no file is read
- * whole. */
+/* 1: the checkpoints in the folder are of the present processes and no others: the usual case, in which no
+ * file is read whole. */
 static int clearly_own (const char *folder)
 {
     char path[4096];
@@ -43,7 +43,8 @@ static int clearly_own (const char *folder)
     return 1;
 }
 
-/* Have all parts a checkpoint of that number, and under which name? Each rank looks at some of them. */
+/* *found 1: all parts have a checkpoint of that number; w->fresh: under which name. Each rank looks at some
+ * of them. */
 static pg_status find_parts (parts_kept *w, const resumed_by *who, int *found)
 {
     pg_status status = PG_OK;
@@ -123,7 +124,7 @@ done:
     return status;
 }
 
-/* Ranks keep copies of the tables. */
+/* Copies the tables of rank 0 to this rank. */
 static pg_status copy_tables (const pg_result *r, const parts_kept *w)
 {
     pg_status status = PG_OK;
@@ -139,7 +140,7 @@ done:
     return status;
 }
 
-/* Fields so far, of the points that are owned now, are written anew, where their format asks for it. */
+/* Writes the earlier fields anew, at the points that are owned now, if their format needs that. */
 static pg_status divide_fields (pg_result *r, const parts_kept *w)
 {
     result_fields *f = &r->fields;
@@ -166,7 +167,7 @@ done:
     return status;
 }
 
-/* What those before have left goes when all have checkpoints of their own. */
+/* Removes what the earlier processes have left, when all ranks have checkpoints of their own. */
 static pg_status drop_others (const pg_result *r)
 {
     pg_status status = PG_OK;
@@ -178,7 +179,7 @@ done:
 }
 
 /* ---- the run ------------------------------------------------------------------------------------------- */
-/* State, solver, and what the result remembers. */
+/* Reads state, solver, and the counters of the result. */
 static pg_status take (pg_result *r, resumed *m, parts_kept *w)
 {
     pg_status status = PG_OK;
@@ -195,7 +196,7 @@ done:
     return status;
 }
 
-/* It is of this scene, and not in use. */
+/* Checks that the checkpoint is of this scene, can be divided anew, and is not in use. */
 static pg_status accept (pg_result *r, resumed *m, const parts_kept *w)
 {
     pg_status status = PG_OK;
@@ -227,7 +228,8 @@ pg_status moved_resume (pg_result *r, resumed *m, parts_kept *w)
         PG_TRY (resumed_go_on (r, m));
     } else {
         at = r->progress.done;
-        if (pg_rank () > 0 && pg_ranks_now ()) at.events = 0;          /* rank 0 has those of all */
+        /* rank 0 writes the events of all ranks */
+        if (pg_rank () > 0 && pg_ranks_now ()) at.events = 0;
         status = pg_result_history_create (r, &at);
         if (status == PG_OK) status = divide_fields (r, w);
         if (status == PG_OK) status = pg_result_remove (r, "report.json");

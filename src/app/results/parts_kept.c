@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Checkpoints of processes among whom the points of a body were divided, read together by those that go on
- * with the run, be they more or fewer. Every checkpoint says which points it has and owns, by numbers that no
- * division changes, in which box they lie, and which of their bonds are dead. A process opens those whose box
- * meets its own, and finds there each point that it holds, ghosts as well, where that was owned. */
+ * Checkpoints of processes among which the points of a body were divided, read together by the processes that
+ * continue the run, be they more or fewer. Every checkpoint has the numbers of its points, which do not
+ * depend on the division, which of them it owns, the box in which they lie, and their broken bonds. A process
+ * opens the checkpoints whose box meets its own, and finds there each point that it holds, ghosts too, in the
+ * part that owned it. */
 #include "resume.h"
 #include <math.h>
 #include <stdint.h>
@@ -10,14 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A bond by two numbers: its point and the set of that, and its node. */
+/* A bond is stored as two numbers: SETS times the number of its point plus the bond set; the number of its
+ * node. */
 enum { OF_BOND = 2, SETS = 4 };
 _Static_assert ((int) PG_BOND_SETS <= (int) SETS, "a bond set has a number below SETS");
 
 /* ---- writing ------------------------------------------------------------------------------------------- */
 static int owned (const pg_problem *p, size_t i) { return pg_cloud_owns (&p->cloud, i); }
 
-/* The box of the points that this process owns, or holds, m. */
+/* Bounding box of the points that this process owns (held 1: holds), m: low x, y, z, high x, y, z. */
 static void box_of (const pg_problem *p, int held, double *box)
 {
     size_t dim = (size_t) p->dim;
@@ -29,7 +31,8 @@ static void box_of (const pg_problem *p, int held, double *box)
         }
 }
 
-/* A sum over the owned points, which no division changes: places, volumes and blocks. */
+/* Checksum of the owned points, which adds up to the same total for any division: positions, numbers and
+ * blocks. */
 static uint64_t sum_of_points (const pg_problem *p, const int64_t *number)
 {
     uint64_t sum = 0;
@@ -44,7 +47,7 @@ static uint64_t sum_of_points (const pg_problem *p, const int64_t *number)
     return sum;
 }
 
-/* Dead bonds of owned points, all sets one after the other. */
+/* Lists the broken bonds of owned points, all bond sets one after the other. */
 static pg_status list_dead (const pg_problem *p, const unsigned char *alive, size_t *n, long **dead)
 {
     pg_status status = PG_OK;
@@ -72,7 +75,8 @@ done:
     return status;
 }
 
-/* Walked twice when a checkpoint is written. A body whose points have no such numbers is not divided. */
+/* Writes the part of a checkpoint that other processes need; called twice per checkpoint. A body whose points
+ * have no numbers independent of the division gets none. */
 pg_status parts_keep (const pg_problem *p, const pg_state *at, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -84,7 +88,7 @@ pg_status parts_keep (const pg_problem *p, const pg_state *at, const pg_keeper *
     if (k->reading) return PG_OK;
     status = pg_problem_numbers (p, PG_NODES, &number);
     if (status == PG_OK) status = list_dead (p, at->alive, &ndead, &dead);
-    if (status == PG_E_LIMIT) status = PG_OK, n = 0;       /* such a run goes on only as it was */
+    if (status == PG_E_LIMIT) status = PG_OK, n = 0;       /* such a run continues only on equal processes */
     PG_TRY (status);
     if (n == 0) goto done;
     PG_ALLOC (list, n);
@@ -109,7 +113,7 @@ static int ascending (const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-/* Points of a set by their number. */
+/* Sorts the points of a bond set by their number. */
 static pg_status sort_numbers (const pg_problem *p, int set, size_t *n, parts_number **out)
 {
     pg_status status = PG_OK;
@@ -124,7 +128,7 @@ done:
     return status;
 }
 
-/* SIZE_MAX: not held here. */
+/* Index of the point of that number; SIZE_MAX: not held here. */
 static size_t find_number (const parts_number *list, size_t n, int64_t number)
 {
     size_t low = 0, high = n;
@@ -147,7 +151,7 @@ done:
     return status;
 }
 
-/* Values of a part, as many as it has (pg_free). */
+/* Reads all integers that a part has under a name; the caller frees them with pg_free. */
 static pg_status counts_of (const parts_kept *w, int part, const char *name, size_t *n, long **out)
 {
     pg_status status = PG_OK;
@@ -159,7 +163,8 @@ done:
     return status;
 }
 
-/* 1: the box of a part, widened by what cells reach beyond points, meets the box of what is held here. */
+/* 1: the box of a part, widened by the reach of cells beyond points, meets the box of the points held
+ * here. */
 static int meets (const double *theirs, const double *mine, int dim, double h)
 {
     for (int k = 0; k < dim; k++)
@@ -167,7 +172,7 @@ static int meets (const double *theirs, const double *mine, int dim, double h)
     return 1;
 }
 
-/* The points of a part that are owned there and held here. */
+/* Finds the points that a part owned and that are held here. */
 static pg_status find_points (parts_kept *w, int part)
 {
     pg_status status = PG_OK;
@@ -190,7 +195,8 @@ done:
     return status;
 }
 
-/* The sum over all points of the parts is that over the points that are owned now, all ranks together. */
+/* Fails unless the checksum of all points of the parts equals that of all points owned now, all ranks
+ * together. */
 static pg_status compare_points (parts_kept *w)
 {
     pg_status status = PG_OK;
@@ -258,7 +264,7 @@ void parts_close (parts_kept *w)
 }
 
 /* ---- reading: values ----------------------------------------------------------------------------------- */
-/* Each part is read by one rank; alone by this process. */
+/* Sums values over the parts, each of which is read by one rank, or all by this process. */
 static pg_status shares (void *context, const char *name, size_t n, double *value)
 {
     pg_status status = PG_OK;
@@ -329,7 +335,7 @@ done:
     return status;
 }
 
-/* Bonds whose node or point is not held here are passed by. */
+/* Marks broken bonds in `alive`; bonds whose node or point is not held here are skipped. */
 static pg_status bonds (void *context, unsigned char *alive)
 {
     pg_status status = PG_OK;

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The component that "stress.xx" names (dot: ".xx"); -1 for the size of a vector, -2 if there
- * is no such component. */
+/* Index of the component that "stress.xx" names (dot: ".xx"); -1 for the size of a vector, -2 if there is
+ * none. */
 static int part_of (const char *dot, int dim, int components)
 {
     if (!dot) return components == 1 ? 0 : components == dim ? -1 : 0;
@@ -17,8 +17,8 @@ static int part_of (const char *dot, int dim, int components)
     return -2;
 }
 
-/* The values that a picture shows: n, to be freed with pg_free; work holds 6 values per point.
- * *unit is a static text of the force. */
+/* Computes the values that a picture shows: n, to be freed with pg_free; work holds 6 values per point. *unit
+ * is a static text of the force. */
 static pg_status read_part (pg_result *r, const pg_state *state, const char *name, double *work, double **out,
                             const char **unit)
 {
@@ -44,14 +44,14 @@ done:
     return status;
 }
 
-/* A title such as "Disk: damage, back, load factor 0.5": title of the problem, view, limit of
- * the selection, time or load factor. */
+/* Writes a title such as "Disk: damage, back, load factor 0.5": title of the problem, view, limit of the
+ * selection, time or load factor. */
 static void write_title (const pg_result *r, const pg_state *state, const result_view *v, const char *unit,
                          char *title, size_t size)
 {
     char limit[48] = "", time[32];
     pg_picture_time (state->time, time, sizeof time);
-    /* surfaces that have grown are drawn themselves, whatever the damage is */
+    /* grown crack surfaces are drawn themselves, whatever the damage is */
     if (v->limited || (v->by_damage && !state->surfaces))
         snprintf (limit, sizeof limit, " (%s\xe2\x89\xa5 %.4g%s%s)", v->by_damage ? "damage " : "",
                   v->style.above, v->limited && *unit ? " " : "", v->limited ? unit : "");
@@ -63,8 +63,8 @@ static void write_title (const pg_result *r, const pg_state *state, const result
         snprintf (title + used, size - (size_t) used, ", displacements \xc3\x97 %g", v->style.magnify);
 }
 
-/* Where the body is: plane elements, its shapes, or the whole cells that stand for it. Nothing
- * is known of points from a file. */
+/* Returns the outline of the body: 2D elements, its shapes, or whole cells; nothing for points from a
+ * file. */
 static pg_outline result_outline (const pg_result *r)
 {
     const pg_problem *p = r->problem;
@@ -109,8 +109,8 @@ done:
     return status;
 }
 
-/* A picture that cannot be drawn is no reason for a run to fail: what it computed does not depend on it. The
- * same reason is told once, with the first picture it keeps from being drawn. */
+/* Warns of a picture that could not be drawn. That is no reason for a run to fail: its results do not depend
+ * on it. Each reason is reported once, with the first picture. */
 static void miss_picture (pg_result *r, const char *path, pg_status status)
 {
     const char *reason = pg_last_error (), *slash = strrchr (path, '/');
@@ -120,16 +120,16 @@ static void miss_picture (pg_result *r, const char *path, pg_status status)
                     reason);
 }
 
-/* Takes note of a picture that was drawn, or that was not. */
+/* Lists a picture that was drawn, or warns of one that was not. */
 static void list_picture (pg_result *r, const char *path, pg_status status, int listed)
 {
     if (status != PG_OK) miss_picture (r, path, status);
     else if (listed) snprintf (r->written[r->nwritten++], sizeof *r->written, "%s", path);
 }
 
-/* Fields have at most three values a point in the plane and six in space: r->u has room for two of these and
- * for one. Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to
- * those that the run names at its end. Forces that show no fields have no pictures. */
+/* Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to those that the
+ * run names at its end. Forces without fields have no pictures. Fields have at most three values a point in
+ * 2D and six in 3D: r->u has room for two of them, or for one. */
 static void draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix, int listed)
 {
     size_t n = r->problem->cloud.n;
@@ -146,7 +146,7 @@ static void draw_all (pg_result *r, const pg_state *state, const char *within, c
     pg_free (more);
 }
 
-/* The number in the name is that of the moment whose fields have just been written. */
+/* Draws all pictures for the moment whose fields have just been written; its number is in their names. */
 void pg_result_draw_stage (pg_result *r, const pg_state *state)
 {
     char path[4096], suffix[32];
@@ -158,7 +158,7 @@ void pg_result_draw_stage (pg_result *r, const pg_state *state)
     draw_all (r, state, "stages/", suffix, 0);
 }
 
-/* The distance from the reference at the points, with both norms in the title. */
+/* Draws |u - u_ref| at the points, with both norms in the title. */
 static void error_picture (pg_result *r, const pg_state *state)
 {
     const pg_norms *n = &r->errors.norms;
@@ -176,7 +176,8 @@ static void error_picture (pg_result *r, const pg_state *state)
     list_picture (r, path, status, 1);
 }
 
-/* Expressions of the reference take the time, in static runs the load factor. */
+/* Measures the state against the reference, whose expressions take the time, in quasi-static runs the load
+ * factor. */
 pg_status pg_result_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -195,8 +196,8 @@ done:
     return status;
 }
 
-/* A run that asks for no picture gets no charts either: cairo is not loaded, which takes longer than many a
- * small run. A curve needs two points at least. */
+/* Draws all pictures. A run that asks for none gets no charts either, so that cairo is not loaded, which
+ * takes longer than many a small run. A curve needs two points at least. */
 void pg_result_draw (pg_result *r, const pg_state *state)
 {
     if (r->pictures.npicture == 0) return;

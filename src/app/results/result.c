@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The result folder from its opening to its end. All rows of a step are in the files when the
- * step is over; fields are written when they are due: with levels of the load (output.at),
- * every so many events, when another share of the bonds has broken, and at the end. */
+ * The result folder from its opening to its end. All rows of a step are in the files when the step is over;
+ * fields are written when they are due: at levels of the load (output.at), after a number of events, when
+ * another share of the bonds has broken, and at the end. */
 #include "results_private.h"
 #include <errno.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ static const struct {
     { "strain", "", TENSOR },        { "rotation", "rad", TURNS },   { "nodal_force", "N", VECTOR },
 };
 
-/* Makes room for the values of a field, one of the list above (as the keys of the scene have checked). */
+/* Allocates the values of a field, one of known_fields (the keys of the scene allow no other). */
 static pg_status prepare_field (pg_field_view *f, double **value, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -62,8 +62,8 @@ done:
     return status;
 }
 
-/* What new and resumed results have in common. length is that of a step in the time of fields:
- * quasi-static loads run from 0 to 1, others to solver.end in s. */
+/* Fills a result, new or resumed. length is that of a step in the time of fields: quasi-static loads run from
+ * 0 to 1, others to solver.end in s. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver)
 {
@@ -91,7 +91,7 @@ done:
     return status;
 }
 
-/* A result of which no file is open yet; what was made is there on failure too. */
+/* Makes a result with no file open yet; on failure *r has the parts that were built. */
 static pg_status ready (pg_result **r, const char *folder, const pg_scene *scene, const pg_problem *problem,
                         pg_solver *solver)
 {
@@ -111,8 +111,8 @@ pg_status pg_result_plan (const pg_scene *scene, const pg_problem *problem, pg_s
     return status;
 }
 
-/* The order matters: checks first, then the lock, and the report of an earlier run is removed
- * before anything new is written, so that nothing of it is mistaken for the new run. */
+/* Opens a new result. The order matters: checks first, then the lock, and the report of an earlier run is
+ * removed before anything is written, so that nothing of it is mistaken for the new run. */
 pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene,
                           const pg_problem *problem, pg_solver *solver)
 {
@@ -137,7 +137,7 @@ done:
     return status;
 }
 
-/* Read from the open files, so that marks and files cannot differ. */
+/* Takes the marks from the open files, so that marks and files cannot differ. */
 result_marks pg_result_marks_now (const pg_result *r)
 {
     const result_tips *t = &r->tips;
@@ -158,7 +158,7 @@ result_marks pg_result_marks_now (const pg_result *r)
     return m;
 }
 
-/* All fields of the state, of the points that this process owns. */
+/* Computes all fields of the state, at the points that this process owns. */
 static pg_status compute_fields (pg_result *r, const pg_state *state)
 {
     result_fields *f = &r->fields;
@@ -175,8 +175,8 @@ done:
     return status;
 }
 
-/* Times of fields ascend, so a second writing at the same time moves on to the next double. All ranks
- * call. */
+/* Writes all fields. Their times must ascend, so a second writing at one time takes the next double. All
+ * ranks call. */
 static pg_status write_fields (pg_result *r, const pg_state *state, double time)
 {
     pg_status status = PG_OK;
@@ -188,9 +188,8 @@ done:
     return status;
 }
 
-/* 1 if another share of the bonds has broken; sets the next one. output.at.broken = 0.1 gives stages at
- * 10 %, 20 % and so on of all bonds; a share that breaks at once with the one before it gives no stage of
- * its own. */
+/* *has 1: another share of the bonds has broken; sets the next share. output.at.broken = 0.1 gives stages at
+ * 10 %, 20 % and so on of all bonds; two shares that break at once give one stage. */
 static pg_status share_has_broken (pg_result *r, const pg_state *state, int *has)
 {
     pg_status status = PG_OK;
@@ -209,16 +208,17 @@ done:
     return status;
 }
 
-/* A time for a stage in the middle of a step, where there is none: rounds of breaking n move it from the
- * last step towards the end of this one, by n / (n + 100) of its length, without reaching it. */
+/* Time given to a stage in the middle of a step: n break rounds move it from the last step towards the end of
+ * this one, by n / (n + 100) of its length, without reaching it. */
 static double time_within (const pg_result *r)
 {
     const result_progress *p = &r->progress;
     return p->stamp + p->length * (double) p->rounds / ((double) p->rounds + 100);
 }
 
-/* The marks are taken before and after writing, so that a checkpoint in between knows how long
- * the files are. If writing fails, the stage is due again after the next round. */
+/* Writes a stage in the middle of a step if it is due. The marks are taken before and after writing, so that
+ * a checkpoint knows how long the files are. If writing fails, the stage is due again after the next
+ * round. */
 pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
 {
     result_progress *p = &r->progress;
@@ -237,16 +237,17 @@ done:
     return status;
 }
 
-/* The fields of a refused step stay, so that the last ones are not those of the last step then. */
+/* Notes that a step was refused. Its stages stay in the files, so that the last fields may not be those of
+ * the last step. */
 void pg_result_refused (pg_result *r)
 {
     r->progress.rounds = 0;
-    /* stages of the refused step stay the last */
+    /* a stage of the refused step may be the last one written */
     r->fields.last_written = r->progress.done.last_written || r->fields.time > r->progress.stamp;
 }
 
-/* `pending` keeps the step until all of it is written, on all ranks, so that a checkpoint after a full
- * disk can write it later. */
+/* Writes the rows of a step, and fields if due. `pending` keeps the step until all of it is written, on all
+ * ranks, so that a checkpoint after a full disk can write it later. */
 pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
 {
     result_progress *p = &r->progress;
@@ -272,8 +273,8 @@ done:
     return status;
 }
 
-/* The error estimate of the force, where it has one and output.estimate asks for it. A run does not fail
- * for want of memory for it, which is told. */
+/* Makes the error estimate, if the force has one and output.estimate asks for it. A lack of memory for it
+ * gives a warning, and the run does not fail. */
 static pg_status estimate (pg_result *r, const pg_state *state)
 {
     void *self;
@@ -286,8 +287,8 @@ static pg_status estimate (pg_result *r, const pg_state *state)
     return PG_OK;
 }
 
-/* Everything that the run leaves is on the disk before the checkpoint goes, from which it could be had again.
- * A run that has none, since it was short, waits for no disk. */
+/* Waits until all files of the run are on the disk, before the checkpoint is removed, from which they could
+ * be made again. A short run without a checkpoint does not wait. */
 static pg_status sync_all (const pg_result *r)
 {
     pg_status status = PG_OK;
@@ -301,9 +302,9 @@ done:
     return status;
 }
 
-/* The run is finished when the checkpoint of rank 0 is gone; parts of fields, which going on would need, go
- * with those of the others, and what the finished fields have more takes its place, since no moment could be
- * appended to them any more: where this did not come to pass, pg_result_complete does it. */
+/* Ends a run. It is finished when the checkpoint of rank 0 is gone; parts of fields, needed only to continue,
+ * go with the checkpoints of the other ranks, and the additions of finished fields take their place, since no
+ * moment can be appended any more. If the process is killed in between, pg_result_complete does the rest. */
 static pg_status close_run (const pg_result *r)
 {
     pg_status status = PG_OK;
@@ -331,8 +332,9 @@ done:
     return status;
 }
 
-/* report.json is written even if something else fails. Until the checkpoint goes, last, nothing is changed
- * that it counts on: a run that is killed at any moment before can be resumed, and after that it is whole. */
+/* Finishes the result; report.json is written even if something else fails. The checkpoint is removed last,
+ * and nothing that it relies on is changed before: a run killed earlier can be resumed, and one killed later
+ * is complete. */
 pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
                             double total)
 {
@@ -352,7 +354,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     if (!failure) PG_TRY (pg_result_fields_complete (r, state));
 done:
     p->seconds += pg_seconds () - t0;
-    /* With what finishing took: fields, pictures, errors against the reference, the estimate. */
+    /* The total time includes the finishing: fields, pictures, errors against the reference, the estimate. */
     pg_status written = pg_result_json (r, state, failure, search, p->earlier + total + pg_seconds () - t0);
     status = pg_ranks_agree (status == PG_OK ? written : status);
     if (status == PG_OK && !failure) return close_run (r);
@@ -360,7 +362,7 @@ done:
     return status;
 }
 
-/* The lock is given up after the files are closed. */
+/* Frees a result; the lock is released after the files are closed. */
 void pg_result_free (pg_result **result)
 {
     pg_result *r = *result;
@@ -383,12 +385,12 @@ void pg_result_free (pg_result **result)
     *result = NULL;
 }
 
-/* Answers for reports of the command line. Errors and estimate: NULL where none were measured. */
+/* Values for the summary that `perigal run` prints. Errors and estimate: NULL if they were not measured. */
 const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
 const char *pg_result_fields (const pg_result *r) { return r->fields.writer->file; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
-/* NULL past the last one. */
+/* Path of picture i; NULL past the last one. */
 const char *pg_result_picture (const pg_result *r, size_t i)
 {
     return i < r->nwritten ? r->written[i] : NULL;

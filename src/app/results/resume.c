@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step
- * that could not be written, and everything that the solver keeps. Reading it back cuts the
- * files to their marks, so that what a killed run has added since does not count. A resumed
- * run then gives the same bits as one that was never interrupted.
- *
- * Everything passes through resumed_all, once for writing and once for reading. Values that are
- * read are checked against the problem before they are used as sizes. */
+ * checkpoint.nc of a result folder: the marks of its files, counters of the result, a step that could not be
+ * written, and everything that the solver keeps. Reading cuts the files to their marks, so that rows that a
+ * killed run has added since do not count. A resumed run then gives the same bits as one that was never
+ * interrupted. Everything passes through resumed_all, for writing and for reading. Values that are read are
+ * checked against the problem before they are used as sizes. */
 #include "resume.h"
 #include <errno.h>
 #include <math.h>
@@ -16,10 +14,10 @@
 #include <unistd.h>
 
 enum { WORD = 64 };                                    /* bytes of a hash and of the version */
-static const long largest = 1L << 50;                  /* of any count */
+static const long largest = 1L << 50;                  /* largest value of any count */
 
-/* A hash of places, volumes and blocks: it also notices changes in files that the scene names
- * only indirectly. */
+/* Hash of positions, volumes and blocks: it also notices changes in files that the scene names only
+ * indirectly. */
 static long fingerprint (const pg_cloud *cloud)
 {
     uint64_t hash = pg_fingerprint (PG_FINGERPRINT, cloud->x,
@@ -28,7 +26,7 @@ static long fingerprint (const pg_cloud *cloud)
     return (long) (pg_fingerprint (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
 }
 
-/* PG_E_USAGE if a file of the scene has another content than when the checkpoint was written. */
+/* Writes or checks the hashes of the scene's files; PG_E_USAGE if a file has changed since the checkpoint. */
 static pg_status keep_files (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -48,8 +46,8 @@ done:
     return status;
 }
 
-/* Who writes it: number of ranks, rank, 1: they share the body. Others than they read it in their own way
- * (moved_run.c). */
+/* Writes or checks which process wrote the checkpoint: number of ranks, rank, 1: they share the body. Other
+ * processes read it by moved_run.c. */
 static pg_status keep_ranks (const resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -64,7 +62,7 @@ done:
     return status;
 }
 
-/* Version, scene and files must be those of this run. */
+/* Writes or checks version, scene and files: they must be those of this run. */
 pg_status resumed_identity (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -88,7 +86,7 @@ done:
     return status;
 }
 
-/* Points, bonds and ranks are those of this run as well; the number of threads may differ. */
+/* Writes or checks points, bonds and ranks as well; the number of threads may differ. */
 static pg_status keep_identity (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -112,8 +110,8 @@ done:
     return status;
 }
 
-/* Marks that are read must be possible: no more rows than history.csv has bytes, no more
- * points of the curve than rows. */
+/* Fails if marks that were read are impossible: more rows than history.csv has bytes, or more points of the
+ * curve than rows. */
 static pg_status check_marks (const resumed *m, const result_marks *at)
 {
     pg_status status = PG_OK;
@@ -131,7 +129,7 @@ done:
     return status;
 }
 
-/* One set of marks under a name. */
+/* Writes or reads one set of marks under a name. */
 static pg_status keep_marks (const resumed *of, result_marks *m, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -146,7 +144,7 @@ done:
     return status;
 }
 
-/* A step that was made and could not be written, for example because the disk was full: its
+/* Writes or reads a step that was made and could not be written, for example because the disk was full: its
  * numbers, broken bonds and reactions, so that its rows are written after resuming. */
 static pg_status keep_pending (resumed *m, const pg_keeper *k)
 {
@@ -160,7 +158,7 @@ static pg_status keep_pending (resumed *m, const pg_keeper *k)
         PG_KEPT (s->instability), PG_KEPT (s->stage), PG_KEPT (s->unjudged), PG_KEPT (s->stamp),
         PG_KEPT (s->time), PG_KEPT (s->factor), PG_KEPT (s->residual), PG_KEPT (s->utilisation),
         PG_KEPT (s->dissipated), PG_KEPT (s->motion))));
-    /* A checkpoint is walked through twice when it is written. */
+    /* This function runs twice when a checkpoint is written. */
     if (!m->broken) PG_ALLOC (m->broken, s->nbroken);
     if (!m->reaction) PG_ALLOC (m->reaction, nreaction);
     if (k->reading) s->broken = m->broken, s->reaction = m->reaction;
@@ -192,7 +190,7 @@ done:
     return status;
 }
 
-/* All of a checkpoint, in a fixed order: identity, counters, marks, curve, cracks, a pending
+/* Writes or reads a whole checkpoint, in a fixed order: identity, counters, marks, curve, cracks, a pending
  * step, the state and the solver, and at last what other processes would need. Sizes come before the arrays
  * that they count. */
 pg_status resumed_all (void *context, const pg_keeper *k)
@@ -210,8 +208,8 @@ done:
 }
 
 /* ---- writing ------------------------------------------------------------------------------------------- */
-/* In the middle of a step the files are to be cut to the marks of the last round, otherwise to
- * those of the last step. */
+/* Prepares the writing of a checkpoint. In the middle of a step the files are later cut to the marks of the
+ * last round, otherwise to those of the last step. */
 static resumed memory_of (pg_result *r, pg_state *state, const char *path)
 {
     result_progress *p = &r->progress;
@@ -226,7 +224,7 @@ static resumed memory_of (pg_result *r, pg_state *state, const char *path)
         .pending = p->pending };
 }
 
-/* Passes the bytes that a checkpoint would get to a keeper (no reading one), for comparisons of states. */
+/* Passes the content of a checkpoint to a keeper that does not read, for comparisons of states. */
 pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
 {
     resumed m = memory_of (r, state, "the checkpoint");
@@ -246,7 +244,8 @@ done:
     return status;
 }
 
-/* The files are synced first: marks on the disk must not be ahead of the rows that they count. */
+/* Writes a checkpoint. The files are synced first: marks on the disk must not be ahead of the rows that they
+ * count. */
 pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
 {
     result_progress *p = &r->progress;
@@ -261,7 +260,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     p->generation++;
     PG_TRY (pg_checkpoint_prepare (path, resumed_all, &m));
 done:
-    /* The last checkpoint stays until all ranks have written a new one. */
+    /* The previous checkpoint stays until all ranks have written a new one. */
     status = pg_ranks_agree (status);
     if (status == PG_OK) status = pg_ranks_agree (pg_checkpoint_commit (path));
     else pg_checkpoint_drop (path);
@@ -279,8 +278,8 @@ int pg_result_kept (const pg_result *r)
     return access (path, F_OK) == 0;
 }
 
-/* At most a tenth of the time goes into checkpoints, however short the interval. An interval
- * of 0 means none on the way. */
+/* 1: a checkpoint is due. At most a tenth of the time goes into checkpoints, however short the interval. An
+ * interval of 0 means none during the run. */
 int pg_result_due (const pg_result *r)
 {
     const result_progress *p = &r->progress;
@@ -307,8 +306,8 @@ done:
     return status;
 }
 
-/* Writes what was due when the checkpoint was written and could not be done: the rows of a
- * pending step, and the stage in the middle of a step. */
+/* Writes what was due at the checkpoint and could not be written: the rows of a pending step, and the stage
+ * in the middle of a step. */
 static pg_status catch_up (resumed *m)
 {
     pg_status status = PG_OK;
@@ -323,7 +322,7 @@ done:
     return status;
 }
 
-/* A pg_keep of the checkpoint's number and of who wrote it. */
+/* Reads the number of a checkpoint and which process wrote it (a pg_keep function). */
 static pg_status read_who (void *context, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -346,7 +345,7 @@ resumed_by resumed_who (const char *path)
     return who;
 }
 
-/* The number of a checkpoint that this rank wrote beside as many others; -1: it is none. */
+/* Number of a checkpoint that this rank wrote, among as many ranks as now; -1: it is none. */
 static double number_of (const char *path)
 {
     const resumed_by who = resumed_who (path);
@@ -361,10 +360,10 @@ static pg_status of_other_moments (const char *path)
                      "--force", path);
 }
 
-/* A run that was killed while it wrote checkpoints may have left those of one moment under two names: some
- * ranks have renamed theirs already (then all have written them), or some have no new one yet (then nobody
- * has renamed his). The newest that all ranks have gets the name that is read. *anew: there is none, as the
- * run was killed before it wrote its first one. All ranks call. */
+/* Chooses the checkpoint to read. A run that was killed while it wrote checkpoints may have left those of one
+ * moment under two names: some ranks have renamed theirs already (then all have written them), or some have
+ * no new one yet (then none is renamed). The newest that all ranks have is renamed to the name that is read.
+ * *anew 1: there is none, as the run was killed before it wrote its first one. All ranks call. */
 static pg_status choose_checkpoint (const char *path, const char *folder, const pg_scene *scene, int *anew)
 {
     pg_status status = PG_OK;
@@ -374,12 +373,12 @@ static pg_status choose_checkpoint (const char *path, const char *folder, const 
         snprintf (fresh, sizeof fresh, "%s.new", path);
         present = number_of (path), next = number_of (fresh);
         common = -fmax (present, next);
-        PG_TRY (pg_ranks_ask (1, &common));            /* minus the least of the newest of all ranks */
+        PG_TRY (pg_ranks_ask (1, &common));            /* minus the smallest over the ranks of their newest */
         if (common <= 0 && next == -common) status = pg_checkpoint_commit (path);
         else if (common <= 0 && present != -common)
             status = of_other_moments (path);
         PG_TRY (pg_ranks_agree (status));
-        pg_checkpoint_drop (path);                     /* of another moment, or half a file */
+        pg_checkpoint_drop (path);                     /* one of another moment, or incomplete */
     }
     int there = access (path, F_OK) == 0;
     double any[2] = { there, pg_rank () == 0 && pg_result_left_early (folder, scene) };
@@ -404,21 +403,22 @@ done:
     return status;
 }
 
-/* Checkpoints are numbered within a run: in a folder that was put together from two runs ranks may have those
- * of two moments under one number, and would wait for each other for ever. All ranks call. */
+/* Fails unless the checkpoints of all ranks are of one moment. They are numbered within a run: in a folder
+ * that was put together from two runs, two moments may have one number, and ranks would wait for each other
+ * for ever. All ranks call. */
 static pg_status one_moment (const resumed *m)
 {
     pg_status status = PG_OK;
     double step = (double) m->state->step, rounds = (double) m->rounds, time = m->state->time,
            all[6] = { step, -step, rounds, -rounds, time, -time };
-    PG_TRY (pg_ranks_ask (6, all));                    /* the largest of all ranks, and minus the least */
+    PG_TRY (pg_ranks_ask (6, all));                    /* largest over the ranks, and minus the smallest */
     if (all[0] != -all[1] || all[2] != -all[3] || all[4] != -all[5])
         status = of_other_moments (m->path);
 done:
     return status;
 }
 
-/* From the checkpoint that this process wrote. */
+/* Resumes from the checkpoint that this process wrote. */
 static pg_status resume_own (pg_result *r, resumed *m)
 {
     pg_status status = pg_result_lock (r->folder, &r->lock);
@@ -430,9 +430,9 @@ done:
     return status;
 }
 
-/* The folder is locked before the checkpoint is read, and its files are cut only after
- * everything in the checkpoint has been accepted, by all ranks; a refused resume leaves the
- * folder as it was. */
+/* Resumes a run. The folder is locked before the checkpoint is read, and its files are cut only after
+ * everything in the checkpoint has been accepted by all ranks; a refused resume leaves the folder as it
+ * was. */
 pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from)
 {
@@ -467,7 +467,8 @@ done:
     return status;
 }
 
-/* Looks for the hash of the scene and the outcome in report.json, which is as long as its lists of files. */
+/* 1: the folder has a finished run of the scene: looks for the hash of the scene and the outcome in
+ * report.json, whose length depends on its lists of files. */
 int pg_result_finished (const char *folder, const pg_scene *scene)
 {
     char path[4096], hash[128], *text;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Results of a run that ranks share (perigal/ranks.h). Rows of history.csv are sums over the ranks, each of
- * which gives what its own points contribute; rows of events.csv are collected on rank 0 and put into the
- * order that one process would write them in; fields are written in parts (fields.c). Rank 0 writes into the
- * result folder, the others into ranks/RANK below it, where each keeps what it needs to go on. */
+ * which gives the contribution of its own points; rows of events.csv are collected on rank 0 and sorted as
+ * one process would write them; fields are written in parts (fields.c). Rank 0 writes into the result folder,
+ * the others into ranks/RANK below it, where each keeps the files from which it can continue. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The folder in which a rank keeps its tables and checkpoint. */
+/* Writes the folder in which a rank keeps its tables and checkpoint. */
 void pg_result_rank_folder (char *out, size_t size, const char *folder)
 {
     if (pg_rank () == 0) snprintf (out, size, "%s", folder);
@@ -17,14 +17,14 @@ void pg_result_rank_folder (char *out, size_t size, const char *folder)
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* What all ranks know alike counts once. */
+/* Returns a value that is equal on all ranks on rank 0, else 0, so that it counts once in sums over ranks. */
 double pg_result_once (double value) { return pg_ranks_now () && pg_rank () ? 0 : value; }
 
 /* ---- events -------------------------------------------------------------------------------------------- */
 typedef struct { pg_broken broken; int64_t point, node; } event;
 
-/* For qsort: events in the order of a run by one process: by time, round, set of the bond, its own point, its
- * other point. */
+/* Compares two events for qsort, in the order in which one process would write them: by time, round, bond
+ * set, its own point, its other point. */
 static int earlier (const void *a, const void *b)
 {
     const event *x = a, *y = b;
@@ -35,7 +35,8 @@ static int earlier (const void *a, const void *b)
     return (x->node > y->node) - (x->node < y->node);
 }
 
-/* The broken bonds of a step on all ranks, on rank 0 (*broken: pg_free), elsewhere none. */
+/* Collects the broken bonds of a step from all ranks on rank 0 (*broken: pg_free); on other ranks there are
+ * none. */
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken)
 {
     pg_status status = PG_OK;

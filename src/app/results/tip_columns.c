@@ -11,8 +11,8 @@
 #include <string.h>
 
 /* ---- from the scene ------------------------------------------------------------------------------------ */
-/* The points that count and their distance along the direction (tip->along, m); points behind
- * `from`, or where the condition fails, have 0 and never become the tip. */
+/* Finds the points that count and their distance along the direction (tip->along, m); points behind `from`,
+ * or where the condition fails, have 0 and never become the tip. */
 static pg_status find_points (result_tip *tip, const pg_problem *p, const pg_expression *where)
 {
     pg_status status = PG_OK;
@@ -50,8 +50,8 @@ done:
     return status;
 }
 
-/* A length needs a direction that is not zero, a condition that does not change with time, and
- * points in that direction where the condition holds. */
+/* Checks entry i of output.tips: it needs a direction that is not zero, a condition that does not change with
+ * time, and points in that direction where the condition holds. */
 static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -85,7 +85,7 @@ done:
     return status;
 }
 
-/* Without a criterion no crack can grow. */
+/* Checks output.tips; without a criterion no crack can grow. */
 pg_status pg_result_tips_check (const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -97,7 +97,8 @@ done:
     return status;
 }
 
-/* The lengths are measured at the first row in any case, since pre-cracks have a length. */
+/* Reads output.tips. The lengths are measured at the first row in any case, since pre-cracks have a
+ * length. */
 pg_status pg_result_tips_read (pg_result *r, const pg_scene *scene)
 {
     result_tips *t = &r->tips;
@@ -113,7 +114,7 @@ done:
     return status;
 }
 
-/* Accepts a result that was only half prepared. */
+/* Frees the tips, even if the result was prepared in part only. */
 void pg_result_tips_free (pg_result *r)
 {
     result_tips *t = &r->tips;
@@ -131,8 +132,8 @@ static double distance (const pg_problem *p, size_t i, const double *x)
     return s;
 }
 
-/* Damage of the points of this rank and of its ghosts, which only their owners know; beyond them NAN, so that
- * nothing there counts as damaged. */
+/* Gets the damage of ghosts from their owners; points beyond the ghosts are set to NAN, so that they do not
+ * count as damaged. */
 static pg_status share_damage (const pg_subdomain *s, double *damage)
 {
     for (size_t i = 0; s && i < s->n; i++) if (!s->owned[i]) damage[i] = NAN;
@@ -157,8 +158,8 @@ done:
     return status;
 }
 
-/* Goes from the points of the queue from *at on to all damaged ones that are connected with them by steps of
- * at most REACH spacings, which leaves no undamaged point between. Breadth first. */
+/* Breadth-first search from the points of the queue, *at being the next, to all damaged points that are
+ * connected with them by steps of at most REACH spacings, which leaves no undamaged point between. */
 static void spread (const result_tip *tip, const pg_problem *p, const double *damage, int *queue, size_t *n,
                     size_t *at, double *seen)
 {
@@ -177,10 +178,10 @@ static void spread (const result_tip *tip, const pg_problem *p, const double *da
     }
 }
 
-/* Collects the damaged points of the crack: those nearest to `from` (all within one spacing of
- * the nearest), and all that are connected with them: r->tip_queue, marked in r->tip_seen. *found: how many
- * there are, also where it fails. Ranks tell each other which of their points have been reached, until
- * none of them finds another one: the neighbours of a point are among the ghosts of its owner. */
+/* Collects the damaged points of the crack in t->queue, marked in t->seen: those nearest to `from` (all
+ * within one spacing of the nearest), and all that are connected with them. *found: their number, also on
+ * failure. Ranks exchange which of their points have been reached, until none of them finds another one: the
+ * neighbours of a point are among the ghosts of its owner. */
 static pg_status follow (pg_result *r, const result_tip *tip, const double *damage, size_t *found)
 {
     result_tips *t = &r->tips;
@@ -229,7 +230,7 @@ done:
     return status;
 }
 
-/* The length of the crack, m; 0 without damaged points. */
+/* Measures the length of the crack, m: that of its farthest point; 0 without damaged points. */
 static pg_status farthest (pg_result *r, const result_tip *tip, const double *damage, double *length)
 {
     pg_status status = PG_OK;
@@ -247,7 +248,7 @@ done:
     return status;
 }
 
-/* Lengths of a row. They are measured only when the number of broken bonds has changed. */
+/* Writes the lengths of a row, m. They are measured only when the number of broken bonds has changed. */
 pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
                            double *work)
 {
@@ -279,7 +280,7 @@ done:
     return status;
 }
 
-/* The first n rows, for a checkpoint. */
+/* Writes or reads the lengths of the first n rows in a checkpoint. */
 pg_status pg_result_tips_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     result_tips *t = &r->tips;
@@ -317,7 +318,7 @@ static double slope (const result_tip *tip, const double *time, size_t first, si
     return tt > 0 ? ts / tt : 0;
 }
 
-/* Speeds are fitted over the time in which a Rayleigh wave passes four horizons. */
+/* Summarizes a crack. Speeds are fitted over the time in which a Rayleigh wave travels four horizons. */
 void pg_result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double *speed)
 {
     const result_tip *tip = &r->tips.tip[i];
@@ -366,7 +367,7 @@ static int like_an_earlier (const pg_result *r, size_t i)
     return 0;
 }
 
-/* The names of all cracks with these lengths, "a = b". */
+/* Writes the names of all cracks with the lengths of crack i, as "a = b". */
 static void write_names (const pg_result *r, size_t i, char *out, size_t size)
 {
     const result_tips *t = &r->tips;
@@ -376,9 +377,8 @@ static void write_names (const pg_result *r, size_t i, char *out, size_t size)
             used += snprintf (out + used, size - (size_t) used, " = %s", t->tip[k].name);
 }
 
-/* tip.png shows all lengths over time or load factor; tip_speed.png, in dynamic runs, the
- * speeds of those that moved, with the speed of Rayleigh waves as a line: theory allows no
- * mode I crack to be faster. */
+/* Draws tip.png with all lengths over time or load factor, and in dynamic runs tip_speed.png with the speeds
+ * of those that grew, and the Rayleigh wave speed as a line: theory allows no mode I crack to be faster. */
 pg_status pg_result_tips_pictures (pg_result *r)
 {
     result_tips *t = &r->tips;
@@ -415,8 +415,8 @@ done:
     return status;
 }
 
-/* A sentence such as "right: 4.95 to 15.95 mm, from 6.20 us to the end, 1520 m/s on average,
- * 1870 m/s at most (at 9.35 mm, 9.52 us): 0.55 and 0.68 of c_R". */
+/* Writes a sentence such as "right: 4.95 to 15.95 mm, from 6.20 us to the end, 1520 m/s on average, 1870 m/s
+ * at most (at 9.35 mm, 9.52 us): 0.55 and 0.68 of c_R". */
 int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 {
     const result_tips *t = &r->tips;
@@ -448,7 +448,7 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     return 1;
 }
 
-/* The summary of each crack; static runs have load factors instead of times, and no speeds. */
+/* Writes the summary of each crack; quasi-static runs have load factors instead of times, and no speeds. */
 void pg_result_tips_json (pg_json *j, const pg_result *r)
 {
     const result_tips *t = &r->tips;

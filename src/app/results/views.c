@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which pictures a scene asks for: the names of output.pictures, then the entries of
- * output.views, each with a file name of its own. */
+ * The pictures that a scene asks for: the names of output.pictures, then the entries of output.views, each
+ * with a file name of its own. */
 #include "results_private.h"
 #include <stdio.h>
 #include <string.h>
@@ -22,9 +22,9 @@ static const char *text_of (const pg_scene *scene, size_t i, const char *key)
                : NULL;
 }
 
-/* Range of the colours and limit of the selection, in SI units of the field. Damage has the
- * range 0 to 1 unless another is given; the view crack shows points above PG_CRACK_DAMAGE,
- * coloured by depth if the field is damage itself. */
+/* Reads the range of the colours and the limit of the selection, in SI units of the field. Damage has the
+ * range 0 to 1 unless another is given; the view crack shows points above PG_CRACK_DAMAGE, coloured by depth
+ * if the field is damage itself. */
 static void read_limits (result_view *v, const pg_scene *scene, size_t i)
 {
     double range[2] = { 0 };
@@ -37,8 +37,7 @@ static void read_limits (result_view *v, const pg_scene *scene, size_t i)
     v->style.by_depth = v->style.view == PG_VIEW_CRACK && strcmp (v->field, "damage") == 0;
 }
 
-/* "section z = 5 mm", "back", "iso": how a solid is looked at, for titles and names; "" in one and two
- * dimensions. */
+/* Writes the view of a 3D body for titles and names: "section z = 5 mm", "back", "iso"; "" in 1D and 2D. */
 static void write_look (result_view *v, const char *view, const char *section, int dim)
 {
     v->look[0] = 0;
@@ -47,7 +46,7 @@ static void write_look (result_view *v, const char *view, const char *section, i
     else snprintf (v->look, sizeof v->look, "%.40s", view ? view : "iso");
 }
 
-/* The file name of a view: its own, or the field and the way of looking, "damage_back". */
+/* Writes the file name of a view: its own, or field and view, "damage_back". */
 static void write_name (result_view *v, const char *name, const char *section)
 {
     pg_picture_name (v->name, sizeof v->name, name ? name : v->field);
@@ -80,8 +79,8 @@ done:
     return status;
 }
 
-/* Names of output.pictures first, then output.views. Pictures beyond the largest number have
- * been reported by pg_result_check. */
+/* Reads names of output.pictures first, then output.views. Pictures beyond the largest number have been
+ * reported by pg_result_check. */
 pg_status pg_result_views_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;

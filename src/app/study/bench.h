@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * bench.h: the cases of a benchmark: how they follow from a request (bench_cases.c), how they
- * run (bench.c, bench_fem.c, bench_mesh.c), what they leave (bench_report.c). */
+ * The cases of a benchmark: how they follow from a request (bench_cases.c), how they run (bench.c,
+ * bench_fem.c, bench_mesh.c), which files they leave (bench_report.c). */
 #ifndef PG_STUDY_BENCH_H
 #define PG_STUDY_BENCH_H
 #include "perigal/study.h"
 
 /* Largest number of repeats. */
 enum { PG_BENCH_REPEATS = 100 };
-/* A point of a curve: one scene, one method, one size. */
+/* A case, that is a point of a curve: one scene, one method, one size. */
 typedef struct {
     /* Indices of the scene and of the curve; cases of one curve differ in size only. */
     size_t scene, curve;
-    /* 1: CalculiX; number of repeats that came to an end. */
+    /* 1: solved by CalculiX; number of repeats that came to an end. */
     int    fem, runs;
-    /* name of the scene; group: scenes of one body and one reference; method in words;
-     * replaced values; trouble: why it did not run, or "". */
+    /* name of the scene; group: scenes of one body and one reference; method in words; perturbation and kind
+     * of cells; the overrides; trouble: why it did not run, or "". */
     char name[64], group[64], method[PG_LIST_TEXT], perturb[16], cells[16], set[8][PG_LIST_TEXT + 32],
         trouble[512];
-    /* Element and size of a mesh, for CalculiX and for scenes that take one; else "". */
+    /* Element and number of elements of a mesh, for CalculiX and for scenes that take one; else "". */
     char   element[16];  long size;
     /* "mesh.file=..." for such a scene, once the mesh is made. */
     char   mesh[4300];
