@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A field against all that a reference says: norms over the body, tables, and the difference
- * at the points; and the same as JSON and as rows for people.
+ * Compares a field with all that a reference has: norms over the body, tables, and the difference at the
+ * points; writes the result as JSON and as lines of text.
  *
  * Norms are integrals over the background cells with more Gauss points than the run has: at
  * its own integration points a solution may be more accurate than elsewhere

@@ -52,7 +52,7 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
     for (int s = 0; s < PG_BOND_SETS; s++) g.count.bonds[s] *= more;
     /* no rank holds the whole body that they would show */
     g.is.pictures = 0;
-    g.is.scattered = 0;                                   /* elements on all nodes */
+    g.is.scattered = 0;                                   /* ranks: elements on all nodes, no coarse grid */
     g.is.automatic = 0, g.linear = NULL;
     pg_forecast_sum (&g);
     add (&g, PG_BYTES_PROGRAM, started);

@@ -68,7 +68,6 @@ typedef struct {
 /* New crack by the broken bonds: its area in m2, in 2D its length in m (else NAN), and the dissipated energy
  * per area in J/m2 (NAN if unknown). */
 typedef struct { int found; double area, length, dissipated; } result_crack;
-/* An open result folder. */
 /* Fields and their writer. */
 typedef struct {
     /* The writer (output.format), its request, and its state; output NULL: not begun, or another process that
@@ -173,6 +172,7 @@ typedef struct {
     int       estimating, estimated;
     pg_estimate estimate;
 } result_estimate;
+/* An open result folder. */
 struct pg_result {
     char     folder[3072];
     char     whole[3200];                              /* the result folder, that of rank 0 */
@@ -245,9 +245,9 @@ pg_status pg_result_remove         (const pg_result *r, const char *name);
 pg_status pg_result_history_create (pg_result *r, const result_marks *from);
 /* Writes the rows of a step to history.csv and events.csv. */
 pg_status pg_result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
-/* Locks a folder; PG_E_USAGE if another run uses it. *lock is what pg_result_unlock takes. */
 /* 1: a run of this scene ended in the folder before it wrote a checkpoint, which is not looked for. */
 int       pg_result_left_early     (const char *folder, const pg_scene *scene);
+/* Locks a folder; PG_E_USAGE if another run uses it. *lock is what pg_result_unlock takes. */
 pg_status pg_result_lock           (const char *folder, int *lock);
 void      pg_result_unlock         (const char *folder, int *lock);
 /* Writes scene.yaml: the scene as it was read, with its origin and the --set options as

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* All runs use one folder, one after the other: only the numbers are kept. */
+/* Makes the folder that all runs use, one after the other: only their numbers are kept. */
 static pg_status make_folders (const pg_bench_request *q)
 {
     char path[4096];
@@ -14,7 +14,7 @@ static pg_status make_folders (const pg_bench_request *q)
     return pg_folder_make (path);
 }
 
-/* Runs a case; the values of the case come after those of the request and so count. */
+/* Runs a case; its overrides come after those of the request, and the later value of a key counts. */
 static pg_status run_once (pg_bench_case *c, const pg_bench_request *q, pg_trial *t)
 {
     pg_status status = PG_OK;
@@ -33,15 +33,15 @@ done:
     return status;
 }
 
-/* One error, or - if it is not known. */
+/* Prints one error, or - if it is not known. */
 static void tell_error (FILE *out, const char *name, double error)
 {
     if (isnan (error)) fprintf (out, "  %s         -", name);
     else fprintf (out, "  %s %9.2e", name, error);
 }
 
-/* One line per case: its scene and method, and its unknowns, errors, CPU seconds and memory,
- * or why it did not run. */
+/* Prints one line for a case: its scene and method, and its unknowns, errors, CPU seconds and memory, or why
+ * it did not run. */
 static void tell (FILE *out, const pg_bench_case *c)
 {
     const double *v = c->best.value;
@@ -73,7 +73,7 @@ static void count_run (pg_bench_case *c, const pg_trial *t)
     if (c->runs++ == 0 || t->value[PG_TRIAL_CPU] < c->best.value[PG_TRIAL_CPU]) c->best = *t;
 }
 
-/* A combination that is not possible (PG_E_SCENE) is not possible at smaller sizes either, so
+/* Runs all cases. A combination that is not possible (PG_E_SCENE) is not possible at smaller sizes either, so
  * the rest of its curve is skipped; other failures end one case only. */
 static pg_status run_all (pg_bench_cases *cases, const pg_bench_request *q)
 {
@@ -93,8 +93,8 @@ done:
     return status;
 }
 
-/* CPU seconds of every case over its repeats: a difference between two cases that is smaller than the
- * spread of one says nothing. */
+/* Prints the CPU seconds of every case over its repeats: a difference between two cases that is smaller than
+ * the spread of one is not significant. */
 static void tell_spread (FILE *out, const pg_bench_cases *cases, int repeat)
 {
     fprintf (out, "  CPU seconds of %d runs: least, median, largest\n", repeat);
@@ -108,7 +108,7 @@ static void tell_spread (FILE *out, const pg_bench_cases *cases, int repeat)
     }
 }
 
-/* All cases are made before the first one runs, so that wrong names are noticed at once. */
+/* Runs a benchmark. All cases are made before the first one runs, so that wrong names are noticed at once. */
 pg_status pg_bench_run (const pg_bench_request *q)
 {
     pg_status status = PG_OK;

@@ -29,14 +29,14 @@ typedef struct {
 } pg_bench_case;
 typedef struct { size_t n, cap, ncurve; pg_bench_case *at; } pg_bench_cases;
 
-/* What a scene says of itself: spacing (m; 0 if its points do not come from one), horizon in
- * spacings and whether it is given, whether its basis is quadratic, whether its body is a
- * mesh, and its name: that of its folder, or of the file if that is not called scene.yaml. */
+/* Properties of a scene: spacing (m; 0 if its points do not come from one), horizon in spacings and whether
+ * it is given, whether its basis is quadratic, whether its body is a mesh, and its name: that of its folder,
+ * or of the file if that is not called scene.yaml. */
 typedef struct { double spacing, horizon; int has_horizon, quadratic, mesh; char name[64]; } pg_bench_base;
-/* Reads this from a scene file. PG_E_SCENE: wrong, or not to be read. */
+/* Reads these properties from a scene file. PG_E_SCENE: it is wrong, or cannot be read. */
 pg_status pg_bench_look (pg_bench_base *out, const char *scene, size_t nset, const char *const *set);
 
-/* All combinations, those of one curve one after the other, sizes in the order given (by
+/* Makes the cases of all combinations, those of one curve one after the other, sizes in the order given (by
  * default from large to small). */
 pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *q);
 /* A body that data/calculix/make_mesh.py can mesh: name of the scene; group under which it is
@@ -44,21 +44,21 @@ pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *q);
  * takes the mesh. */
 typedef struct { const char *scene, *group, *mesh, *unit; int dim, own; } pg_bench_body;
 const pg_bench_body *pg_bench_body_find (const char *scene);
-/* Why no mesh can be made, in words; NULL if it can. */
+/* Returns why no mesh of the scene can be made, in words; NULL if it can. */
 const char *pg_bench_mesh_missing (const char *path, const char *scene);
-/* Name of the mesh file in DIR/fem, without .inp. */
+/* Writes the name of the mesh file in DIR/fem, without .inp. */
 void        pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size);
 /* Makes the mesh of a case unless it has been made. */
 pg_status   pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q);
 /* Makes the mesh of a case unless it has been made, and fills c->mesh. */
 pg_status   pg_bench_mesh_set  (pg_bench_case *c, const pg_bench_request *q);
-/* Adds the same bodies for CalculiX, with meshes in DIR/fem; this needs ccx, python3 and
- * make_mesh.py. */
+/* Adds cases in which CalculiX solves the body of a scene, with meshes in DIR/fem; this needs ccx, python3
+ * and make_mesh.py. */
 pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size_t scene,
                             const char *name);
-/* Runs such a case once. */
+/* Runs a case of CalculiX once. */
 pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q);
-/* Least, median and largest CPU seconds of the runs of a case. */
+/* Finds least, median and largest CPU seconds of the runs of a case. */
 void      pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest);
 /* Writes bench.csv, pictures, and the ratios of CPU seconds at equal error. */
 pg_status pg_bench_report (const pg_bench_cases *cases, const pg_bench_request *q);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The cases of a benchmark: every combination of what the command line names or, where it
- * names nothing, of what the catalogues hold. */
+ * The cases of a benchmark: every combination of the words on the command line or, for lists that are not
+ * given, of the entries of the catalogues. */
 #include "bench.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* The name of a scene: FOLDER for FOLDER/scene.yaml, FOLDER_X for FOLDER/scene_X.yaml, else
- * the file without .yaml. */
+/* Writes the name of a scene: FOLDER for FOLDER/scene.yaml, FOLDER_X for FOLDER/scene_X.yaml, else the file
+ * without .yaml. */
 static void name_of (const char *path, char *name, size_t size)
 {
     const char *file = strrchr (path, '/'), *folder = path;
@@ -18,8 +18,8 @@ static void name_of (const char *path, char *name, size_t size)
     else snprintf (name, size, "%.*s%.*s", (int) (file - 1 - folder), folder, dot - 5, file + 5);
 }
 
-/* The scene is loaded with the values of the request, since these may change its spacing or
- * its body. */
+/* Reads the properties of a scene, which is loaded with the overrides of the request, since these may change
+ * its spacing or its body. */
 pg_status pg_bench_look (pg_bench_base *b, const char *path, size_t nset, const char *const *set)
 {
     pg_status status = PG_OK;
@@ -44,7 +44,7 @@ static void fill (pg_word_list *w, const char *names)
         snprintf (w->word[w->n++], PG_LIST_TEXT, "%.*s", (int) strcspn (s, "|"), s);
 }
 
-/* A number alone counts spacings, as in `converge --horizon`. */
+/* Appends " spacing" to numbers without a unit, as in `converge --horizon`. */
 static void count_spacings (pg_word_list *w)
 {
     for (size_t k = 0; k < w->n; k++) {
@@ -61,9 +61,8 @@ static void put (pg_bench_case *c, const char *key, const char *value)
     if (value) snprintf (c->set[c->nset++], sizeof *c->set, "%s=%s", key, value);
 }
 
-/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the
- * linear one, 2.5 for the quadratic one. NULL if the user gave a horizon, or the scene has one
- * for this basis. */
+/* Returns the horizon for a basis that differs from that of the scene: 2 spacings for the linear one, 2.5 for
+ * the quadratic one. NULL if the user gave a horizon, or the scene has one for this basis. */
 static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *q, const char *basis)
 {
     for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;
@@ -72,14 +71,14 @@ static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *
     return quadratic ? "2.5 spacing" : "2 spacing";
 }
 
-/* Does the force choose among approximations, integrations and bases? */
+/* 1: the force has shape functions, so that approximation, integration and basis can be chosen. */
 static int has_shape_functions (const char *force)
 {
     const pg_force_type *type = pg_force_find (force);
     return !type || type->method.shape_functions;
 }
 
-/* One combination; NULL: as the scene has it. */
+/* One combination of words; NULL: as in the scene. */
 typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
 
 /* Appends a word to a name, with a blank before it unless the name is empty; "" and NULL append nothing. */
@@ -89,8 +88,8 @@ static void append (char *name, size_t size, const char *word)
     if (word && *word && n < size) snprintf (name + n, size - n, "%s%s", n ? " " : "", word);
 }
 
-/* "rkpm gauss quadratic perturbed 0.2": what tells the curves of a picture apart. The force is named where
- * there are several, or where it has no shape functions. */
+/* Names the method, such as "rkpm gauss quadratic perturbed 0.2", to distinguish the curves of a picture. The
+ * force is named if there are several, or if it has no shape functions. */
 static void name_method (pg_bench_case *c, const pg_bench_request *q, const pg_bench_base *b, const mix *m)
 {
     int perturbed = m->perturb && strcmp (m->perturb, "0") != 0;
@@ -105,7 +104,7 @@ static void name_method (pg_bench_case *c, const pg_bench_request *q, const pg_b
     append (c->method, sizeof c->method, b->mesh ? "mesh" : "");
 }
 
-/* A case without its size: names, and the keys that make the scene this combination. */
+/* Fills in a case, except its size: names, and the overrides that turn the scene into this combination. */
 static void fill_case (pg_bench_case *c, const pg_bench_request *q, const pg_bench_base *b, const mix *m)
 {
     const pg_bench_body *body = pg_bench_body_find (b->name);
@@ -121,8 +120,8 @@ static void fill_case (pg_bench_case *c, const pg_bench_request *q, const pg_ben
     put (c, "method.horizon", m->horizon || !m->basis ? m->horizon : horizon_for (b, q, m->basis));
 }
 
-/* How many sizes a curve has: those asked for; twice, once and half the scene's spacing; one where nothing
- * sets it. */
+/* Number of sizes of a curve: those asked for; else 3, for twice, once and half the scene's spacing; 1 if the
+ * scene has none. */
 static size_t count_sizes (const pg_bench_request *q, const pg_bench_base *b, int meshed)
 {
     if (meshed) return q->mesh.n;
@@ -162,8 +161,8 @@ done:
     return status;
 }
 
-/* The word of a list in combination k; lists count like the digits of a number, `of` being the
- * weight of this one. */
+/* Returns the word of a list in combination k; lists count like the digits of a number, `of` being the weight
+ * of this one. */
 static const char *word_of (const pg_word_list *w, size_t k, size_t of)
 {
     return w->n ? w->word[k / of % w->n] : NULL;
@@ -181,7 +180,7 @@ static int has_fem (const pg_bench_cases *cases, const char *name)
     return 0;
 }
 
-/* Lists that were not given stand for the whole catalogue. */
+/* Fills lists that were not given with the whole catalogue. */
 static void fill_lists (pg_bench_request *q)
 {
     fill (&q->force, (*pg_force_methods ())->name);
@@ -194,8 +193,8 @@ static void fill_lists (pg_bench_request *q)
     count_spacings (&q->horizon);
 }
 
-/* Every combination of the lists for one scene, as digits of a number with the last list running fastest.
- * A force without shape functions comes once, not for every approximation, integration and basis. */
+/* Adds every combination of the lists for one scene, as digits of a number with the last list running
+ * fastest. A force without shape functions comes once, not for every approximation, integration and basis. */
 static pg_status add_combinations (pg_bench_cases *out, const pg_bench_request *q, size_t s,
                                    const pg_bench_base *b)
 {
@@ -222,8 +221,8 @@ done:
     return status;
 }
 
-/* Scene by scene: the product of all lists, then CalculiX if that is asked for. A force
- * without shape functions has none to choose among: it gets one combination instead of all of
+/* Makes the cases scene by scene: the product of all lists, then CalculiX if that is asked for. A force
+ * without shape functions gets one combination of approximation, integration and basis, as it uses none of
  * them. */
 pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
 {

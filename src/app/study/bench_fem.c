@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * CalculiX beside Perigal: the program ccx in a process on one thread, and its result (.frd)
- * measured in another one with the same norms. */
+ * CalculiX, compared with Perigal: the program ccx runs in a process on one thread, and its result (.frd) is
+ * measured in another one with the norms that are used for Perigal. */
 #include "process.h"
 #include "bench.h"
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* What is missing in order to compute this scene by CalculiX, in words; NULL: nothing. */
+/* Returns what is missing to solve this scene by CalculiX, in words; NULL: nothing. */
 static const char *missing (const char *path, const char *scene)
 {
     return pg_bench_body_find (scene) && !pg_process_finds ("ccx")
@@ -16,8 +16,8 @@ static const char *missing (const char *path, const char *scene)
                : pg_bench_mesh_missing (path, scene);
 }
 
-/* Adds a curve for each kind of element with a case for each mesh size (elements along the side), those
- * asked for or the usual ones. If something is missing one case is added that says so. */
+/* Adds a curve for each kind of element with a case for each mesh size (elements along the side), those asked
+ * for or the default ones. If something is missing a single case with that message is added. */
 pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size_t s, const char *name)
 {
     pg_status status = PG_OK;
@@ -27,7 +27,7 @@ pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size
     const pg_bench_body *body = pg_bench_body_find (name);
     int solid = body && body->dim == 3, again = 0;
     size_t nelement = q->element.n ? q->element.n : 2, nsize = q->size.n ? q->size.n : solid ? 3 : 4;
-    for (size_t i = 0; body && i < out->n; i++)        /* on meshes of another shape */
+    for (size_t i = 0; body && i < out->n; i++)        /* the body is there already, on other meshes */
         again |= out->at[i].fem && strcmp (out->at[i].group, body->group) == 0;
     for (size_t e = 0; e < (why ? 1 : nelement); e++, out->ncurve++)
         for (size_t k = 0; k < (why ? 1 : nsize); k++) {
@@ -48,9 +48,9 @@ done:
     return status;
 }
 
-/* The errors and sizes of a result, measured by `bench --fem-row` in a process of its own.
- * Elements with incompatible modes (C3D8I) have strains that their displacement lacks, so no
- * energy error can be derived from the displacement. */
+/* Measures errors and sizes of a result by `bench --fem-row` in a process of its own. Elements with
+ * incompatible modes (C3D8I) have strains that do not follow from their displacement, so no energy error can
+ * be derived from it. */
 static pg_status measure (pg_trial *t, const pg_bench_case *c, const pg_bench_request *q, const char *job)
 {
     pg_status status = PG_OK;
@@ -69,14 +69,14 @@ static pg_status measure (pg_trial *t, const pg_bench_case *c, const pg_bench_re
     if (child->code != 0)
         PG_FAIL (PG_E_FILE, "%s", text[0] ? text : "the result of ccx could not be measured");
     pg_trial_read (t, child->text);
-    /* its strains hold modes that its displacement lacks */
+    /* its strains do not follow from its displacement */
     if (strchr (c->element, 'I')) t->value[PG_TRIAL_ENERGY] = NAN;
 done:
     pg_free (child);
     return status;
 }
 
-/* Meshes, computes and, at the first run, measures. Repeats only look for the least CPU
+/* Makes the mesh, runs ccx and, in the first run, measures the result. Repeats only find the least CPU
  * seconds, since the result is the same each time. */
 pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q)
 {
@@ -92,7 +92,7 @@ pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q)
     snprintf (job, sizeof job, "%s/%s", folder, name);
     PG_TRY (pg_bench_mesh_make (c, q));
     PG_TRY (pg_process_run (child, "ccx", argv, folder, NULL, 1));
-    /* the log of its equations, which it writes into the folder where it is started */
+    /* remove the log of the equation solver, which ccx writes into its current folder */
     snprintf (log, sizeof log, "%s/spooles.out", folder);
     remove (log);
     snprintf (log, sizeof log, "%s.frd", job);

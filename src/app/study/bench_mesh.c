@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes of data/calculix/make_mesh.py, for CalculiX and for scenes that take the same mesh.
- * They are made before anything is timed. */
+ * Meshes of data/calculix/make_mesh.py, for CalculiX and for scenes that use the same mesh. They are made
+ * before anything is timed. */
 #include "process.h"
 #include "bench.h"
 #include <errno.h>
@@ -27,7 +27,7 @@ static const pg_bench_body known[] = {
     { "cantilever_3d_mesh", "cantilever_3d", "cantilever_3d_long", "m", 3, 1 },
 };
 
-/* NULL for scenes that the script does not know. */
+/* Finds the body of a scene; NULL if make_mesh.py has no mesh of it. */
 const pg_bench_body *pg_bench_body_find (const char *scene)
 {
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
@@ -35,8 +35,8 @@ const pg_bench_body *pg_bench_body_find (const char *scene)
     return NULL;
 }
 
-/* The path of the script: in ../calculix beside the folder of the scene, or below the current
- * folder; NULL if it is not there. */
+/* Finds the path of make_mesh.py: in ../calculix beside the folder of the scene, or below the current folder;
+ * NULL if it is not there. */
 static const char *script_of (const char *path, char *script, size_t size)
 {
     const char *slash = strrchr (path, '/');
@@ -45,7 +45,7 @@ static const char *script_of (const char *path, char *script, size_t size)
     return access (script, R_OK) == 0 ? script : NULL;
 }
 
-/* The first thing that is missing. */
+/* Returns the first thing that is missing for a mesh. */
 const char *pg_bench_mesh_missing (const char *path, const char *scene)
 {
     char script[4096];
@@ -54,7 +54,7 @@ const char *pg_bench_mesh_missing (const char *path, const char *scene)
     return script_of (path, script, sizeof script) ? NULL : "data/calculix/make_mesh.py is not there";
 }
 
-/* Scenes with the same body, element and size share a mesh. */
+/* Names the mesh; scenes with the same body, element and size share one. */
 void pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size)
 {
     snprintf (name, size, "%.24s_%.15s_%ld", pg_bench_body_find (c->name)->mesh, c->element, c->size);
@@ -91,7 +91,8 @@ done:
     return status;
 }
 
-/* The path must be absolute: a relative one in a scene counts from the folder of the scene. */
+/* Makes the mesh and sets mesh.file to it; the path must be absolute, since a relative one counts from the
+ * folder of the scene. */
 pg_status pg_bench_mesh_set (pg_bench_case *c, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

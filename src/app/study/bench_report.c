@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a benchmark leaves: bench.csv with all numbers, pictures of error over CPU seconds and
- * over unknowns, and the CPU seconds at equal error, interpolated between the sizes of a curve
- * in logarithms. */
+ * The files of a benchmark: bench.csv with all numbers, pictures of error over CPU seconds and over unknowns;
+ * and the CPU seconds at equal error, interpolated in logarithms between the sizes of a curve. */
 #include "perigal/picture.h"
 #include "bench.h"
 #include <math.h>
@@ -12,7 +11,7 @@
  * picture. */
 enum { FIRST = 8, COLUMNS = FIRST + PG_TRIAL_COUNT + 4, CURVES = 10 };
 
-/* The error that a case is judged by: over the body, or else on the lines of its reference. */
+/* Error by which a case is ranked: over the body, or else on the lines of its reference. */
 static double error_of (const pg_bench_case *c)
 {
     double l2 = c->best.value[PG_TRIAL_L2];
@@ -32,16 +31,17 @@ void pg_bench_spread (const pg_bench_case *c, double *least, double *median, dou
     *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
 }
 
-/* Numbers of a row behind its words: those of the best run, the spread of all runs, how many there were. */
+/* Numbers of a row, after its words: those of the best run, median and largest CPU seconds, number of
+ * runs. */
 enum { MEDIAN = PG_TRIAL_COUNT, LARGEST, RUNS, NUMBERS };
 
-/* Names of the columns, and where a key=value of the case fills one. */
+/* Names of the columns of words, and the override "key=" of a case from which a column takes its value. */
 static const char *const words[FIRST] = { "case",  "method",  "approximation", "integration",
                                           "basis", "perturb", "cells",         "fem" };
 static const char *const word_key[FIRST] = { [2] = "method.approximation=", [3] = "method.integration=",
                                              [4] = "method.basis=" };
 
-/* The words of a row: an entry of a catalogue that a case replaces stands in its own column. */
+/* Finds the words of a row; a catalogue entry that a case overrides stands in its own column. */
 static void fill_words (const pg_bench_case *c, const char *cell[FIRST])
 {
     const char *fixed[FIRST] = { c->name, c->method,  "",       "",
@@ -54,7 +54,7 @@ static void fill_words (const pg_bench_case *c, const char *cell[FIRST])
     }
 }
 
-/* The numbers of a row as text; what is not known stays empty. */
+/* Writes the numbers of a row as text; unknown ones stay empty. */
 static void fill_numbers (const pg_bench_case *c, char number[NUMBERS][32])
 {
     double value[NUMBERS], least;
@@ -67,7 +67,7 @@ static void fill_numbers (const pg_bench_case *c, char number[NUMBERS][32])
     }
 }
 
-/* One row per case; texts of the method come from its replaced values. */
+/* Writes bench.csv, one row per case; the words for the method come from its overrides. */
 static pg_status write_table (const pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;
@@ -101,8 +101,8 @@ done:
 /* A curve of a picture: cost x and error y. */
 typedef struct { size_t n, cap; double *x, *y; const char *name; int fem; } curve;
 
-/* The cases of a curve that came to an end with an error above zero, in their order; `over` is
- * the number of the trial that counts as cost. */
+/* Makes a curve from the cases that came to an end with an error above zero, in their order; `over` is the
+ * index of the trial's number that counts as cost. */
 static pg_status curve_of (curve *out, const pg_bench_cases *cases, const char *group, size_t id, int over)
 {
     pg_status status = PG_OK;
@@ -129,7 +129,7 @@ static void curves_free (curve **list, size_t n)
     pg_free (*list), *list = NULL;
 }
 
-/* All curves of a group. */
+/* Makes all curves of a group. */
 static pg_status curves_of (curve **out, size_t *n, const pg_bench_cases *cases, const char *group, int over)
 {
     pg_status status = PG_OK;
@@ -143,8 +143,8 @@ done:
     return status;
 }
 
-/* Keeps the curves of CalculiX and those with the least product of error and cost, as many as
- * can be told apart; the curves that are left out are freed. */
+/* Keeps the curves of CalculiX and those with the least product of error and cost, at most `most`; the others
+ * are freed. */
 static void thin_out (curve *list, size_t *n, size_t most)
 {
     while (*n > most) {
@@ -161,8 +161,8 @@ static void thin_out (curve *list, size_t *n, size_t most)
     }
 }
 
-/* One picture for a group, over CPU seconds or unknowns; alone = 1: its file name needs no
- * group. The title says if curves were left out. */
+/* Draws one picture for a group, over CPU seconds or unknowns; alone = 1: its file name needs no group. The
+ * title says if curves were left out. */
 static pg_status draw (const pg_bench_cases *cases, const pg_bench_request *q, const char *name, int alone,
                        int over)
 {
@@ -201,9 +201,8 @@ done:
     return status;
 }
 
-/* The least CPU seconds that reach the error: at a size whose error is small enough, or
- * between two sizes of a curve where the error is reached in between; *name: of the curve.
- * INFINITY if none does. */
+/* Least CPU seconds with which a curve reaches the error: at a size whose error is small enough, or
+ * interpolated between two sizes; *name: name of the curve. INFINITY if none does. */
 static double cheapest (const curve *list, size_t n, int fem, double error, const char **name)
 {
     double least = INFINITY;
@@ -217,8 +216,7 @@ static double cheapest (const curve *list, size_t n, int fem, double error, cons
     return least;
 }
 
-/* CPU seconds of both programs at three levels of error, and their ratio: what an answer of
- * that quality costs. */
+/* Prints the CPU seconds of both programs at three levels of error, and their ratio. */
 static pg_status print_ratios (const pg_bench_cases *cases, const pg_bench_request *q, const char *name)
 {
     pg_status status = PG_OK;
@@ -242,7 +240,7 @@ done:
     return status;
 }
 
-/* The group of a scene if it is the first of the group, else NULL. */
+/* Returns the group of a scene if the scene is the first of the group, else NULL. */
 static const char *group_of (const pg_bench_cases *cases, size_t scene)
 {
     const char *name = NULL;
@@ -252,7 +250,7 @@ static const char *group_of (const pg_bench_cases *cases, size_t scene)
     return name;
 }
 
-/* One group needs no name in the files; several have one each. */
+/* Writes table and pictures; if there are several groups their names are part of the file names. */
 pg_status pg_bench_report (const pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

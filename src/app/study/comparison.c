@@ -20,14 +20,14 @@ static int exists (const char *folder, const char *name)
     return stat (path, &s) == 0;
 }
 
-/* 1 if the text ends so, in capitals or not. */
+/* 1 if the text ends with `tail`, in capitals or not. */
 static int ends (const char *text, const char *tail)
 {
     size_t n = strlen (text), m = strlen (tail);
     return n > m && strcasecmp (text + n - m, tail) == 0;
 }
 
-/* 1 if the folder has the fields of a run: result.e, or parts of it by ranks, which become one when they are
+/* 1 if the folder has the fields of a run: result.e, or parts of it by ranks, which are joined when they are
  * read. */
 static int has_fields (const char *folder)
 {
@@ -39,8 +39,8 @@ static int has_fields (const char *folder)
     return found;
 }
 
-/* 1 for a result folder, or for its result.e, the copied scene being there; folder (4096
- * bytes) gets the path of the folder. */
+/* 1 for a result folder, or for its result.e with scene.yaml beside it; folder (4096 bytes) gets the path of
+ * the folder. */
 static int is_result (const char *reference, char *folder)
 {
     const char *slash = strrchr (reference, '/');
@@ -50,9 +50,8 @@ static int is_result (const char *reference, char *folder)
     return strcmp (slash ? slash + 1 : reference, "result.e") == 0 && exists (folder, "scene.yaml");
 }
 
-/* Against another result. Norms are taken over the cells of the finer one of both, where
- * differences of the coarser one cannot hide between its points. PG_E_USAGE: the bodies have
- * no place in common. */
+/* Compares with another result. Norms are taken over the cells of the result with the smaller spacing, where
+ * differences of the other cannot hide between its points. PG_E_USAGE: the bodies do not overlap. */
 static pg_status against_result (pg_comparison *c, const pg_comparison_request *q, const char *folder)
 {
     pg_status status = PG_OK;
@@ -78,7 +77,7 @@ done:
     return status;
 }
 
-/* Compares a result with a table: unit and scale belong to its columns, the shift moves its places.
+/* Compares a result with a table: unit and scale belong to its columns, the shift moves its positions.
  * PG_E_USAGE if none of them lies in the body: a wrong unit is the usual reason. */
 static pg_status against_table (pg_comparison *c, const pg_comparison_request *q)
 {
@@ -99,8 +98,7 @@ done:
     return status;
 }
 
-/* Against the reference of the scene, at the time of the step; PG_E_USAGE if the scene has
- * none. */
+/* Compares with the reference of the scene, at the time of the step; PG_E_USAGE if the scene has none. */
 static pg_status against_scene (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -114,9 +112,8 @@ done:
     return status;
 }
 
-/* Against a finite element result, over the cells of our own result. The view c->fem stays
- * valid as long as c->reference, which owns the mesh. Places outside the elements are counted
- * and said. */
+/* Compares with a finite element result, over the cells of our own result. The view c->fem stays valid as
+ * long as c->reference, which owns the mesh. Points outside the elements are counted and reported. */
 static pg_status against_mesh (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -126,7 +123,8 @@ static pg_status against_mesh (pg_comparison *c, const pg_comparison_request *q)
     pg_sampler plain = { 0 };
     PG_TRY (pg_sampler_mesh (&plain, q->reference, q->other_step, q->unit, a->problem));
     c->fem = plain;
-    c->fem.free = NULL;                                /* owned by the moved one; asked for its mesh */
+    /* c->reference owns it; this view only gives the mesh */
+    c->fem.free = NULL;
     const pg_mesh *mesh = pg_sampler_mesh_of (&plain, NULL, NULL);
     size_t elements = mesh->n, nodes = mesh->nnode;
     PG_TRY (pg_sampler_moved (&c->reference, &plain, q->shift, q->scale));
@@ -148,8 +146,8 @@ done:
     return status;
 }
 
-/* The result is opened first, because the dimension of its body decides how the reference is
- * read. */
+/* Opens result and reference, and measures. The result comes first, because the dimension of its body decides
+ * how the reference is read. */
 pg_status pg_comparison_open (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -167,7 +165,7 @@ done:
     return status;
 }
 
-/* Samplers go before the problems that they borrow. */
+/* Frees a comparison; samplers before the problems that they borrow. */
 void pg_comparison_clear (pg_comparison *c)
 {
     pg_errors_clear (&c->errors);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The problem with the smaller spacing, at whose points both sides are written. */
+/* Returns the problem with the smaller spacing, at whose points both sides are written. */
 static const pg_problem *finer (const pg_comparison *c)
 {
     return c->other && c->other->problem->cloud.h < c->own->problem->cloud.h ? c->other->problem
@@ -17,7 +17,7 @@ static const pg_problem *finer (const pg_comparison *c)
 }
 
 /* ---- pictures ------------------------------------------------------------------------------------------ */
-/* Label of the colour bar. */
+/* Writes the label of the colour bar. */
 static void name_difference (int column, char *label, size_t size)
 {
     if (column >= PG_COMPARE_U)
@@ -25,8 +25,7 @@ static void name_difference (int column, char *label, size_t size)
     else snprintf (label, size, "%s - reference (%s)", pg_column_name (column), pg_column_unit (column));
 }
 
-/* The difference at the points; components have colours from blue to red, symmetric about
- * zero. */
+/* Draws the difference at the points; components have colours from blue to red, symmetric about zero. */
 static pg_status field_picture (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -52,9 +51,8 @@ done:
     return status;
 }
 
-/* The difference on the elements of a finite element reference: its nodes, moved by the shift
- * to where our result is, are the places of comparison. The picture shows the mesh at its own
- * place, without displacement. */
+/* Draws the difference on the elements of a finite element reference, at its nodes, which are moved by the
+ * shift to where our result is. The picture shows the mesh at its own position, without displacement. */
 static pg_status mesh_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_mesh *mesh,
                                const char *path)
 {
@@ -81,7 +79,7 @@ done:
     return status;
 }
 
-/* The coordinate along which the table extends most: the x axis of its chart. */
+/* Index of the coordinate along which the table extends most: the x axis of its chart. */
 static int main_axis (const pg_line *l)
 {
     int best = 0;
@@ -139,7 +137,7 @@ done:
 }
 
 /* ---- files --------------------------------------------------------------------------------------------- */
-/* The norms, how both sides were sampled, and which step was compared. */
+/* Writes compare.json: the norms, how both sides were sampled, and which step was compared. */
 static pg_status json_file (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -160,14 +158,14 @@ done:
     return status;
 }
 
-/* Names a file that was written. */
+/* Prints the name of a file that was written. */
 static void tell (const pg_comparison_request *q, const char *what, const char *path)
 {
     if (q->out) fprintf (q->out, "  %s %s\n", what, path);
 }
 
-/* Files of n tables, a CSV and a chart each; `before` is the number of files that have been
- * written already: the tables of the scene follow its field. */
+/* Writes a CSV file and a chart for each of n tables; `before` is the number of files that have been written
+ * already: the tables of the scene follow its field. */
 static pg_status table_files (const pg_comparison *c, const pg_comparison_request *q, const pg_line *line,
                               size_t n, size_t before)
 {
@@ -188,7 +186,8 @@ done:
     return status;
 }
 
-/* Field first, then a table that was named, then the tables of the scene, the norms last. */
+/* Writes all files: the field first, then a table given on the command line, then the tables of the scene,
+ * the norms last. */
 pg_status pg_comparison_write (const pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

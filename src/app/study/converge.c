@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Orders of convergence: a scene at falling spacings, each run a process of its own, and the
- * order of every number that it gives. Two limits are of interest in peridynamics (Bobaru et
- * al. 2009): delta-convergence, where horizon and spacing fall together, goes to the local
- * solution; m-convergence, where the horizon is kept, to the nonlocal one of that horizon. */
+ * Orders of convergence: a scene at decreasing spacings, each run a process of its own, and the order of
+ * every number that it gives. Two limits are of interest in peridynamics (Bobaru et al. 2009):
+ * delta-convergence, in which horizon and spacing decrease together, leads to the local solution;
+ * m-convergence, in which the horizon is kept, to the nonlocal one of that horizon. */
 #include "bench.h"
 #include "converge.h"
 #include <math.h>
 #include <string.h>
 
-/* Takes the errors of size k, as far as they are known. */
+/* Takes the errors at size k, as far as they are known. */
 static pg_status take_errors (pg_study *s, size_t k, const pg_trial *t)
 {
     pg_status status = PG_OK;
@@ -27,9 +27,9 @@ done:
     return status;
 }
 
-/* Runs all sizes for one horizon, each in a folder of its own whose history.csv is read
- * afterwards. Spacing and horizon come after the values of the user and so count. A spacing
- * that did not fall shows that the scene takes its points from elsewhere. */
+/* Runs all sizes for one horizon, each in a folder of its own whose history.csv is read afterwards. Spacing
+ * and horizon come after the overrides of the user, and the later value counts. A spacing that did not
+ * decrease shows that the scene takes its points from elsewhere. */
 static pg_status run_study (pg_study *s, const pg_converge_request *q, const pg_bench_base *b)
 {
     pg_status status = PG_OK;
@@ -43,7 +43,8 @@ static pg_status run_study (pg_study *s, const pg_converge_request *q, const pg_
         if (q->fixed) snprintf (horizon, sizeof horizon, "method.horizon=%.15g m", s->horizon * b->spacing);
         else snprintf (horizon, sizeof horizon, "method.horizon=%.15g spacing", s->horizon);
         for (size_t i = 0; i < q->nset; i++) run.set[run.nset++] = q->set[i];
-        run.set[run.nset++] = spacing, run.set[run.nset++] = horizon;              /* the later one counts */
+        /* a later value of a key counts */
+        run.set[run.nset++] = spacing, run.set[run.nset++] = horizon;
         PG_TRY (pg_trial_run (&t, &run));
         if (k && !(t.value[PG_TRIAL_SPACING] < s->h[k - 1]))
             PG_FAIL (PG_E_SCENE,
@@ -62,8 +63,8 @@ done:
     return status;
 }
 
-/* All horizons, then table, file and picture. Without a list the horizon of the scene is
- * taken. */
+/* Makes the studies of all horizons, then prints, writes and draws them. Without a list the horizon of the
+ * scene is taken. */
 static pg_status study_all (pg_study *list, pg_converge_request *q)
 {
     pg_status status = PG_OK;
@@ -90,7 +91,7 @@ done:
     return status;
 }
 
-/* The list of studies is too large for the stack. */
+/* Runs a study of convergence; the list of studies is allocated, as it is too large for the stack. */
 pg_status pg_converge_run (pg_converge_request *q)
 {
     pg_status status = PG_OK;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * converge.h: the numbers of one scene at falling sizes, and the orders that follow from them. */
+ * The numbers that one scene gives at decreasing spacings ("sizes"), and the orders of convergence that
+ * follow from them. */
 #ifndef PG_STUDY_CONVERGE_H
 #define PG_STUDY_CONVERGE_H
 #include "perigal/study.h"
 
 enum { PG_CONVERGE_NAME = 128 };
-/* One number of the runs at each size. */
+/* One number that the runs give, such as a reaction, at each size. */
 typedef struct {
     char   name[PG_CONVERGE_NAME], unit[32];
     /* 1: it is an error, whose limit is 0. */
@@ -15,20 +16,20 @@ typedef struct {
 } pg_quantity;
 /* A study with one horizon. */
 typedef struct {
-    /* In spacings (with a fixed horizon: of the first size). */
+    /* Horizon in spacings (with a fixed horizon: spacings of the first size). */
     double horizon;
-    /* Number of sizes so far and their spacings, m, falling. */
+    /* Number of sizes so far, and their spacings, m, decreasing. */
     size_t n;  double h[PG_CONVERGE_SIZES];
     size_t nquantity, cap;  pg_quantity *list;
 } pg_study;
-/* The quantity of that name, made if there is none; NULL without memory. Pointers to other
+/* Returns the quantity of that name, created if there is none; NULL without memory. Pointers to other
  * quantities become invalid. */
 pg_quantity *pg_study_quantity (pg_study *s, const char *name, const char *unit);
 /* Order from the first n sizes of a study. */
 pg_observed pg_study_order (const pg_study *s, const pg_quantity *q, size_t n);
 
-/* Takes the last row of DIR/history.csv as size k: forces, displacements, gauges, averages,
- * energies; and of every force with several rows its largest magnitude. */
+/* Takes from the last row of DIR/history.csv, as size k: forces, displacements, gauges, averages, energies;
+ * and of every force with several rows its largest magnitude. */
 pg_status pg_converge_history (pg_study *s, size_t k, const char *folder);
 /* Prints the table of a study, writes all studies as convergence.csv, draws them. *drawn: 0 if
  * there was nothing to draw. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The last state of a run, and the largest forces on the way, from its history.csv. */
+ * The last state of a run, and its largest forces, from history.csv. */
 #include "converge.h"
 #include <math.h>
 #include <string.h>
 
-/* A new quantity is unknown at all sizes. */
+/* Finds or creates a quantity; a new one is unknown (NAN) at all sizes. */
 pg_quantity *pg_study_quantity (pg_study *s, const char *name, const char *unit)
 {
     pg_status status = PG_OK;
@@ -20,7 +20,7 @@ done:
     return q;
 }
 
-/* Counts and flags say nothing about convergence. */
+/* 0 for columns with counts and flags, which say nothing about convergence. */
 static int wanted (const char *name)
 {
     static const char *const not_these[] = { "step",     "time",        "load_factor", "broken", "iterations",
@@ -30,8 +30,7 @@ static int wanted (const char *name)
     return 1;
 }
 
-/* Takes a value under the name of its column without its unit, with `what` before it, at size
- * k. */
+/* Takes a value at size k, under `what` and the name of its column without the unit. */
 static pg_status put (pg_study *s, size_t k, const char *what, const char *column, double value)
 {
     pg_status status = PG_OK;

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Orders of convergence as a table for people, as convergence.csv and as a picture. Numbers
- * that are zero but for rounding, such as a reaction across the load, are left out. */
+ * Orders of convergence as a printed table, as convergence.csv and as a picture. Numbers that are zero but
+ * for rounding, such as a reaction across the load, are left out. */
 #include "perigal/picture.h"
 #include "converge.h"
 #include <math.h>
 #include <string.h>
 
 enum { CURVES = 12 };
-/* Relative to the largest number of the same unit, a value this small is rounding. */
+/* A value this small, relative to the largest number with its unit, is rounding. */
 static const double noise = 1e-9;
 
-/* Errors have the limit 0; of other values the limit is found as well (compare.h). */
+/* Finds the order of a quantity. Errors have the limit 0; for other values the limit is found as well
+ * (compare.h). */
 pg_observed pg_study_order (const pg_study *s, const pg_quantity *q, size_t n)
 {
     return q->error ? pg_observed_of_errors (n, s->h, q->value) : pg_observed_of_values (n, s->h, q->value);
@@ -34,8 +35,8 @@ static double largest (const pg_study *s, const char *unit)
     return most;
 }
 
-/* 1 if a quantity is rounding beside those of its unit; forces also beside energy over
- * displacement, for a run may have no other force. Errors are never noise. */
+/* 1 if a quantity is rounding, compared with others of its unit; forces also with energy over displacement,
+ * for a run may have no other force. Errors are never rounding. */
 static int is_noise (const pg_study *s, const pg_quantity *q)
 {
     double most = largest (s, q->unit), way = largest (s, "m");
@@ -44,8 +45,8 @@ static int is_noise (const pg_study *s, const pg_quantity *q)
     return size_of (s, q) <= noise * most;
 }
 
-/* A heading with the spacings, then one row per quantity: its value at each size, then order,
- * limit and estimated error, or the reason why there is no order. */
+/* Prints a heading with the spacings, then one row per quantity: its value at each size, then order, limit
+ * and estimated error, or the reason why there is no order. */
 void pg_converge_print (const pg_study *s, int fixed, FILE *out)
 {
     fprintf (out, "horizon %g %s\n  %-30s", s->horizon,
@@ -68,15 +69,15 @@ void pg_converge_print (const pg_study *s, int fixed, FILE *out)
     }
 }
 
-/* A cell; empty for NAN. */
+/* Writes a number into a cell; empty for NAN. */
 static void number (char *cell, size_t size, double value)
 {
     if (isnan (value)) cell[0] = 0;
     else snprintf (cell, size, "%.12g", value);
 }
 
-/* One row per quantity and size; the order in row k is that of the sizes up to k, so that it
- * can be seen to settle. */
+/* Writes convergence.csv, one row per quantity and size; the order in row k is that of the sizes up to k, so
+ * that it can be seen to settle. */
 pg_status pg_converge_table (const pg_study *list, size_t n, const char *folder)
 {
     pg_status status = PG_OK;
@@ -113,7 +114,7 @@ done:
 }
 
 /* ---- picture ------------------------------------------------------------------------------------------- */
-/* The curves of the picture; order: that of the first one, which gets a slope triangle. */
+/* The curves of the picture; order: of the first curve, which gets a slope triangle. */
 typedef struct {
     char name[CURVES][PG_CONVERGE_NAME + 32];
     double y[CURVES][PG_CONVERGE_SIZES];
@@ -122,8 +123,8 @@ typedef struct {
     double order;
 } chart;
 
-/* Adds an error, or of a value with an order its distance from Richardson's extrapolated
- * value, relative to that; values without an order have nothing to show. */
+/* Adds a curve: an error, or the distance of a value from Richardson's extrapolated value, relative to that;
+ * values without an order are left out. */
 static void add_curve (chart *c, const pg_study *s, const pg_quantity *q, int several)
 {
     pg_observed o = pg_study_order (s, q, s->n);
@@ -139,7 +140,8 @@ static void add_curve (chart *c, const pg_study *s, const pg_quantity *q, int se
     c->n++;
 }
 
-/* Errors if any were measured, else distances. The triangle shows the order rounded to halves. */
+/* Draws the errors if any were measured, else the distances. The triangle shows the order rounded to
+ * halves. */
 pg_status pg_converge_picture (const pg_study *list, size_t n, const char *folder, const char *title,
                                int *drawn)
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Why does no bond break? One static solve at load factor 1 in which nothing may break, then
- * the criterion on what it shows: the load factor and the place of the first break. Also what
- * the tips of cracks bear, and the largest frequency, which bounds explicit time steps. */
+ * The first break of a scene (check --solve): one quasi-static solve at load factor 1 in which nothing may
+ * break, then the criterion applied to it: load factor and position of the first break. Also J and K of crack
+ * tips, and the largest frequency, which bounds explicit time steps. */
 #include "perigal/study.h"
 #include <math.h>
 #include <string.h>
 
-/* The bond with the smallest load factor; without proportional loads that of the largest
+/* Index of the bond with the smallest load factor; if loads are not proportional, of that with the largest
  * utilisation. */
 static size_t worst_bond (const pg_first_break *b, size_t n, const double *factor, const double *utilisation)
 {
@@ -16,7 +16,7 @@ static size_t worst_bond (const pg_first_break *b, size_t n, const double *facto
     return worst;
 }
 
-/* Bond set and middle of a bond, between its evaluation point and its node. */
+/* Finds the bond set and the middle of a bond, between its evaluation point and its node. */
 static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 {
     size_t point, dim = (size_t) p->dim;
@@ -26,8 +26,8 @@ static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
     for (size_t k = 0; k < dim; k++) b->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
-/* Asks the force for the utilisation of every bond. Without proportional loads the factor is
- * an estimate: 1 over the utilisation. INFINITY if nothing can break. */
+/* Finds the bond that breaks first, from the utilisation of every bond. If loads are not proportional the
+ * factor is an estimate: 1 over the utilisation. INFINITY if nothing can break. */
 static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* J and stress intensity factors at the tips, under the full load. */
+/* Measures J and stress intensity factors at the crack tips (2D), under the full load. */
 static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver *solver,
                                const pg_state *state)
 {
@@ -75,7 +75,7 @@ done:
     return status;
 }
 
-/* Of the vertices of a front, by the fields measured there. */
+/* Summarizes J and K over the vertices of a front, from the fields measured there. */
 static void summarise (pg_first_front *out, const pg_front *f, const pg_tip_field *field)
 {
     const double one = 1;
@@ -89,7 +89,7 @@ static void summarise (pg_first_front *out, const pg_front *f, const pg_tip_fiel
         pg_tip_combine (&field[i], 1, &one, &J, NULL, NULL);
         pg_tip_intensities (&field[i], 1, &one, K);
         if (!(out->J[2] >= J)) out->J[2] = J, memcpy (out->x, f->x + 3*i, sizeof out->x);
-        out->J[0] = fmin (out->J[0], J);               /* of NAN and a number: the number */
+        out->J[0] = fmin (out->J[0], J);               /* fmin ignores NAN */
         out->J[1] = (out->measured ? out->J[1] : 0) + J * field[i].length, weight += field[i].length;
         for (int m = 0; m < 3; m++)
             out->K[m][0] = fmin (out->K[m][0], K[m]), out->K[m][1] = fmax (out->K[m][1], K[m]);
@@ -98,7 +98,7 @@ static void summarise (pg_first_front *out, const pg_front *f, const pg_tip_fiel
     out->J[1] /= weight;
 }
 
-/* J and stress intensity factors along the fronts of cracks in space, under the full load. */
+/* Measures J and stress intensity factors along crack fronts (3D), under the full load. */
 static pg_status measure_fronts (pg_first_break *b, const pg_problem *p, pg_solver *solver,
                                  const pg_state *state)
 {
@@ -124,7 +124,7 @@ done:
     return status;
 }
 
-/* The advance of fronts in space: the vertex that went farthest; of a new crack one of its front. */
+/* Finds the vertex of the crack fronts (3D) that moved farthest; for a new crack a vertex of its front. */
 static void find_advance (pg_first_break *b, const pg_crack_surfaces *w)
 {
     double most = -1;
@@ -139,7 +139,7 @@ static void find_advance (pg_first_break *b, const pg_crack_surfaces *w)
         }
 }
 
-/* The facet that a state has grown: that of the tip that moved, or a new crack. */
+/* Finds the facet by which a crack has grown (2D): that of the tip that moved, or a new crack. */
 static void find_facet (pg_first_break *b, const pg_crack_paths *w)
 {
     if (!w || w->cracks.n == w->nfirst || !(w->length > 0)) return;
@@ -152,7 +152,7 @@ static void find_facet (pg_first_break *b, const pg_crack_paths *w)
     for (int k = 0; k < 2; k++) b->from[k] = vertex[2 * (1 - to) + k], b->to[k] = vertex[2 * to + k];
 }
 
-/* The largest utilisation of a tip, or of a vertex of a front, that the solver knows. */
+/* Largest utilisation of a tip, or of a vertex of a front, that the solver has computed. */
 static double largest_utilisation (const pg_solver *solver)
 {
     double top = 0;
@@ -162,9 +162,9 @@ static double largest_utilisation (const pg_solver *solver)
     return top;
 }
 
-/* Criteria of tips judge no bond: the run itself, up to its first event, says when the first facet grows. If
- * the full load comes before, the energy that a tip sets free there, which goes with the square of
- * proportional loads, tells. */
+/* Finds when the first facet grows, for criteria that are evaluated at crack tips, not for bonds: by the run
+ * itself, up to its first event. If the full load is reached before, the load factor follows from the energy
+ * release rate, which goes with the square of proportional loads. */
 static pg_status find_growth (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;
@@ -197,9 +197,9 @@ static int all_dense (const pg_problem *p)
     return 1;
 }
 
-/* The problem is copied without its criterion for the solve, so that nothing breaks; the copy
- * shares all arrays with the original and must not be freed. The solver takes one step to the
- * full load. Dynamic and staged scenes get the frequency only. */
+/* Finds the first break. The problem is copied without its criterion for the solve, so that nothing breaks;
+ * the copy shares all arrays with the original and must not be freed. The solver takes one step to the full
+ * load. Dynamic and staged scenes get the largest frequency only. */
 pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;

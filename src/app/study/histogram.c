@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bins of the histogram, most. */
+/* Largest number of bins of the histogram. */
 enum { BINS = 30 };
 
 void pg_spread_of (pg_spread *out, size_t n, double *value)
@@ -36,8 +36,9 @@ double pg_chart_unit (double size, const char *unit, char *out, size_t bytes)
     return pow (10, -3.0 * (k - 3));
 }
 
-/* Draws a histogram: as many equal bins as the root of the number of values, between least and largest; the
- * outline of the bars, and a line at the mean. *drawn 0: nothing, as values are too few or all the same. */
+/* Draws a histogram: the outline of the bars and a line at the mean; equal bins between least and largest
+ * value, as many as the root of the number of values. *drawn 0: nothing, as values are too few or all
+ * equal. */
 pg_status pg_histogram_draw (int *drawn, const char *path, const pg_spread *s, const double *value,
                              const char *quantity, const char *unit, const char *title)
 {

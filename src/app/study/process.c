@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Processes with their own seconds and memory, by fork, exec and wait4, whose resource usage
  * is that of the child alone. */
-#define _DEFAULT_SOURCE                                /* wait4 */
+#define _DEFAULT_SOURCE                                /* declares wait4 */
 #include "process.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -15,8 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Numbers of threads for the libraries of the child, CalculiX included. OMP_THREAD_LIMIT stays
- * 1: OpenMP threads of CHOLMOD slow it down beside a threaded BLAS. */
+/* Sets the numbers of threads for the libraries of the child, CalculiX included. OMP_THREAD_LIMIT stays 1:
+ * OpenMP threads of CHOLMOD slow it down beside a threaded BLAS. */
 static void settle_environment (int threads)
 {
     static const char *const counts[] = { "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
@@ -29,8 +29,8 @@ static void settle_environment (int threads)
     setenv ("OMP_WAIT_POLICY", "passive", 1);
 }
 
-/* The new process becomes the program; never returns. stdin is empty, stdout goes to the
- * parent, stderr to the log. 127: could not be started. */
+/* Replaces the new process by the program; never returns. stdin is empty, stdout goes to the parent, stderr
+ * to the log. Exit code 127: it could not be started. */
 static void become (const char *program, const char *const argv[], const char *folder,
                     const char *log, int to, int threads)
 {
@@ -46,8 +46,8 @@ static void become (const char *program, const char *const argv[], const char *f
     _exit (127);
 }
 
-/* Reads until the other end closes; what exceeds the text is read and dropped, so that the
- * child never waits. Returns the bytes kept. */
+/* Reads from a pipe until the other end closes; what exceeds the text is read and dropped, so that the child
+ * never waits. Returns the bytes kept. */
 static size_t drain (int from, char *text, size_t size)
 {
     char rest[4096];
@@ -66,12 +66,11 @@ static size_t drain (int from, char *text, size_t size)
 /* A time of the system in seconds. */
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
-/* The exit code of what wait4 tells. */
+/* Turns a status of wait4 into an exit code. */
 static int code_of (int how) { return WIFEXITED (how) ? WEXITSTATUS (how) : 128 + WTERMSIG (how); }
 
-/* The output of the child is read to its end before its exit is waited for: a full pipe would
- * block both. All streams are flushed before the fork: otherwise their buffers would be
- * written twice. */
+/* Runs a program to its end. Its output is read to the end before its exit is waited for: a full pipe would
+ * block both. All streams are flushed before the fork: otherwise their buffers would be written twice. */
 pg_status pg_process_run (pg_process *out, const char *program, const char *const argv[], const char *folder,
                      const char *log, int threads)
 {
@@ -103,7 +102,8 @@ done:
     return status;
 }
 
-/* The parent may have died between fork and prctl: then nobody would ever tell the child. */
+/* Starts a child. If the parent has died between fork and prctl the child ends, since it would never get the
+ * signal. */
 pg_status pg_child_start (pg_child *out, const char *const argv[], const char *log, int threads)
 {
     pg_status status = PG_OK;
@@ -129,7 +129,7 @@ int pg_child_ended (pg_child *c)
     pid_t got = c->id > 0 ? wait4 ((pid_t) c->id, &how, WNOHANG, &used) : 0;
     if (got <= 0 && !(got < 0 && errno == ECHILD)) return 0;
     c->wall = pg_seconds () - c->start;
-    c->code = 127;                                     /* somebody else has waited for it */
+    c->code = 127;                                     /* another part of the program has waited for it */
     if (got > 0) {
         c->cpu = seconds_of (&used.ru_utime) + seconds_of (&used.ru_stime);
         c->peak = (size_t) used.ru_maxrss * 1024;
@@ -144,7 +144,7 @@ void pg_child_signal (const pg_child *child, int number)
     if (child->id > 0) kill ((pid_t) child->id, number);
 }
 
-/* Looks in each folder of PATH. */
+/* 1 if a program is in one of the folders of PATH. */
 int pg_process_finds (const char *program)
 {
     const char *s = getenv ("PATH");
@@ -158,7 +158,8 @@ int pg_process_finds (const char *program)
     return 0;
 }
 
-/* Compilers, scripts and our own program all put the reason first, ours after its warnings. */
+/* Takes the first line that is no warning: compilers, scripts and our own program all print the reason first,
+ * ours after its warnings. */
 void pg_process_complaint (const char *log, char *text, size_t size)
 {
     static const char warning[] = "perigal: warning: ";

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The runs, their values of the scene as text, and their results. */
+/* The runs, their overrides of the scene as text, and their results. */
 typedef struct {
     size_t n;
     pg_series_run *run;
@@ -16,11 +16,10 @@ typedef struct {
     char (*text)[PG_SERIES_SETS][64];
 } series;
 
-/* ---- what has a seed --------------------------------------------------------------------------------------
- */
-/* Writes the values of the scene that give every random thing in it the seed s: the k-th of them s + 1000000
- * k, so that two networks of one scene are not the same; fields: random fields in expressions come first,
- * with s + 1000000 j for the j-th different seed among them (random_field.seed). Returns how many. */
+/* ---- what has a seed ----------------------------------------------------------------------------------- */
+/* Writes the overrides that give every random item of the scene the seed s: the k-th of them s + 1000000 k,
+ * so that two networks of one scene are not the same; fields: random fields in expressions come first, with s
+ * + 1000000 j for the j-th different seed among them (random_field.seed). Returns the number of overrides. */
 static size_t set_seeds (char text[PG_SERIES_SETS][64], const pg_scene *scene, int fields, long s)
 {
     size_t n = 0;
@@ -68,9 +67,8 @@ done:
     return status;
 }
 
-/* ---- results ----------------------------------------------------------------------------------------------
- */
-/* A number, or nothing where it is not known. */
+/* ---- results ------------------------------------------------------------------------------------------- */
+/* Writes a number as a cell, empty if it is not known. */
 static void write_number (FILE *f, double x)
 {
     if (isnan (x)) fprintf (f, ",");
@@ -124,7 +122,7 @@ static void tell (FILE *out, const pg_spread *s, size_t runs, const char *folder
              s->n > 1 && s->most > s->least ? "/seeds.png" : "");
 }
 
-/* A scene that is wrong is wrong for all seeds. */
+/* Ends the study if the scene or the command line of run k is wrong: it is then wrong for all seeds. */
 static pg_status look (void *context, size_t k)
 {
     pg_status status = PG_OK;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Many runs of one scene that differ in some of its values: each in a folder and a process of its own, as
- * many at a time as are asked for. A run that is there already is not repeated, one that was interrupted
- * goes on, one that failed begins anew. The processes are asked again and again whether they have ended,
- * since waiting for one would leave signals unheard that come just before. */
+ * many at a time as are asked for. A finished run is not repeated, an interrupted one is continued, a failed
+ * one begins anew. The processes are polled, since a signal that comes just before a wait for one of them
+ * would not be noticed. */
 #include "process.h"
 #include "series.h"
 #include "perigal/picture.h"
@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Length of paths. */
+/* Largest lengths of paths. */
 enum { PATH = 4096, FOLDER = PATH - 64 };
 
 static int exists (const char *folder, const char *name)
@@ -24,9 +24,8 @@ static int exists (const char *folder, const char *name)
     return access (path, F_OK) == 0;
 }
 
-/* ---- what a run left
- * -------------------------------------------------------------------------------------- / */
-/* The whole of a text file; NULL: it cannot be read. */
+/* ---- what a run left ----------------------------------------------------------------------------------- */
+/* Reads a whole text file; NULL: it cannot be read. */
 static char *read_text (const char *path)
 {
     pg_status status = PG_OK;
@@ -53,7 +52,8 @@ char *pg_report_load (const char *folder)
     return read_text (path);
 }
 
-/* This is no JSON reader: it relies on the form that our own writer gives, and on the order of its keys. */
+/* Finds a number in a report. This is no JSON reader: it relies on the form that our own writer gives, and on
+ * the order of its keys. */
 double pg_report_number (const char *text, const char *block, const char *key)
 {
     char word[64], *end;
@@ -70,7 +70,7 @@ double pg_report_number (const char *text, const char *block, const char *key)
     return end == at + strlen (word) ? NAN : value;
 }
 
-/* From report.json: the peak of the curve that it names, energies, bonds, seconds. */
+/* Reads from report.json: the peak of its curve, energies, bonds, seconds. */
 static void read_report (pg_series_result *r, const char *folder)
 {
     char *text = pg_report_load (folder);
@@ -82,14 +82,13 @@ static void read_report (pg_series_result *r, const char *folder)
     pg_free (text);
 }
 
-/* ---- one run
- * ---------------------------------------------------------------------------------------------- / */
+/* ---- one run ------------------------------------------------------------------------------------------- */
 enum { WORDS = 2 * PG_TRIAL_SETS + 2 * PG_SERIES_SETS + 16, JOBS = 64 };
 
-/* A run that is going on, or being checked. */
+/* A run in progress, or its check. */
 typedef struct { pg_child child; size_t k; char folder[FOLDER], log[PATH]; } slot;
 
-/* All values of a run, first those that it shares. */
+/* Lists all overrides of a run, first those shared by all runs. Returns their number. */
 static size_t all_sets (const char *set[], const pg_series_request *q, const pg_series_run *run)
 {
     size_t n = 0;
@@ -107,7 +106,7 @@ done:
     return status;
 }
 
-/* Does the report of the folder say that the run came to its end? */
+/* 1: the report in the folder says that the run came to its end. */
 static int is_done (const char *folder)
 {
     char *text = exists (folder, "checkpoint.nc") ? NULL : pg_report_load (folder);
@@ -132,7 +131,7 @@ done:
     return status;
 }
 
-/* The command line of a run, or of its check. */
+/* Writes the command line of a run, or of its check. */
 static void write_words (const char *argv[WORDS], slot *s, const pg_series_request *q,
                          const pg_series_run *run, int check, char threads[16])
 {
@@ -169,7 +168,7 @@ static int was_stopped (int code)
     return code == PG_EXIT_INTERRUPTED || code == 128 + SIGTERM || code == 128 + SIGHUP;
 }
 
-/* What an ended run left; the first line of what it says on stderr is why it failed. */
+/* Takes the results of an ended run; if it failed, the first line of its stderr is the reason. */
 static void finish (pg_series_result *out, slot *s)
 {
     out->code = was_stopped (s->child.code) ? PG_EXIT_INTERRUPTED : s->child.code;
@@ -185,7 +184,7 @@ static void finish (pg_series_result *out, slot *s)
     read_report (out, s->folder);
 }
 
-/* A line for each run as it ends, its name in a column as wide as the longest name. */
+/* Prints a line for a run that has ended, its name in a column as wide as the longest name. */
 static void tell (const pg_series_request *q, size_t k, const pg_series_result *r)
 {
     char peak[64] = "no peak";
@@ -200,10 +199,9 @@ static void tell (const pg_series_request *q, size_t k, const pg_series_result *
     fflush (out);
 }
 
-/* ---- many runs
- * -------------------------------------------------------------------------------------------- / */
-/* What is followed while runs go on: the slots, how many are in use, the next run, how many signals have
- * been passed on, and the first failure with its message. */
+/* ---- many runs ----------------------------------------------------------------------------------------- */
+/* State of a series: the slots, number of slots in use, next run, number of signals that have been passed on,
+ * and the first failure with its message. */
 typedef struct {
     const pg_series_request *q;
     pg_series_result *out;
@@ -214,7 +212,7 @@ typedef struct {
     char   failure[8192];
 } series;
 
-/* The first failure counts; the runs that go on are then asked to stop. */
+/* Ends the series for a failure, of which the first counts: the other runs are asked to stop. */
 static void give_up (series *s, pg_status status)
 {
     if (s->status != PG_OK) return;
@@ -223,7 +221,7 @@ static void give_up (series *s, pg_status status)
     for (size_t i = 0; i < s->slots; i++) pg_child_signal (&s->slot[i].child, SIGINT);
 }
 
-/* 1: no more runs shall begin. Signals that came since the last look are passed on, each once. */
+/* 1: no more runs shall begin. Signals that came since the last call are passed on, each once. */
 static int is_stopping (series *s)
 {
     int asked = s->q->stop ? *s->q->stop : 0;
@@ -232,7 +230,7 @@ static int is_stopping (series *s)
     return asked || s->status != PG_OK;
 }
 
-/* Run k is over: its line, and the caller's look at it. */
+/* Concludes run k: prints its line, and calls the caller's function `ended`. */
 static pg_status conclude (series *s, size_t k)
 {
     pg_status status = PG_OK;
@@ -244,7 +242,8 @@ done:
     return status;
 }
 
-/* What a finished run left is read; one of another scene is not touched. */
+/* Takes the results of run k if it is finished already; a finished run of another scene is reported and left
+ * alone. */
 static pg_status take_finished (series *s, size_t k, int *taken)
 {
     pg_status status = PG_OK;
@@ -269,7 +268,7 @@ done:
     return status;
 }
 
-/* Fills free slots; runs that need no process are taken at once. */
+/* Starts runs in free slots; finished runs, which need no process, are taken at once. */
 static pg_status start_more (series *s)
 {
     pg_status status = PG_OK;
@@ -291,7 +290,7 @@ done:
     return status;
 }
 
-/* Takes what has ended; returns how many. */
+/* Takes the runs that have ended; returns their number. */
 static size_t collect (series *s)
 {
     size_t n = 0;
@@ -346,9 +345,8 @@ done:
     return status;
 }
 
-/* ---- checks
- * ----------------------------------------------------------------------------------------------- / */
-/* What the check of run k said, in full. Its file is removed. */
+/* ---- checks -------------------------------------------------------------------------------------------- */
+/* Fails with the whole message of the check of run k, if it failed. Its file is removed. */
 static pg_status verdict (const slot *s, const pg_series_request *q)
 {
     pg_status status = PG_OK;
@@ -368,8 +366,8 @@ done:
     return status;
 }
 
-/* Starts the check of the next run, unless the run is finished or goes on: then the file of a check that was
- * killed with an earlier command goes. */
+/* Starts the check of the next run, unless the run is finished or can be continued: then a file left by the
+ * killed check of an earlier command is removed. */
 static pg_status check_next (series *s, slot *at)
 {
     pg_status status = PG_OK;
@@ -389,7 +387,7 @@ done:
     return status;
 }
 
-/* Takes what has ended and fills what is free; returns how much was done. */
+/* Takes checks that have ended and starts more in free slots; returns how many of both. */
 static size_t check_more (series *s)
 {
     size_t n = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A sweep: one scene with all combinations of some of its values, or with their first values together,
- * their second ones and so on. Every combination is looked at before the first run begins: keys and values
- * by reading the scene, all of them at once, then everything else by `perigal check`. */
+ * A sweep: one scene with all combinations of some of its values, or (--zip) with their first values
+ * together, their second ones and so on. Every combination is checked before the first run begins: keys and
+ * values by reading the scene, all of them at once, then everything else by `perigal check`. */
 #include "sweep.h"
 #include <ctype.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 /* ---- keys and runs ---------------------------------------------------------------------------------- */
-/* Short names of keys that end alike would hide which is which: such keys keep their whole path. */
+/* Sets the labels: keys that end alike keep their whole path, since their short names would be equal. */
 static void settle_labels (sweep *s)
 {
     for (size_t i = 0; i < s->nkey; i++)
@@ -22,7 +22,7 @@ static void settle_labels (sweep *s)
         }
 }
 
-/* The keys of the sweep; what has one value is a value for all runs. */
+/* Reads the keys of the sweep; a key with one value is an override of all runs. */
 static pg_status read_keys (sweep *s, pg_series_request *all)
 {
     pg_status status = PG_OK;
@@ -55,7 +55,7 @@ done:
     return status;
 }
 
-/* How many runs there are; --zip wants lists of one length. */
+/* Counts the runs; --zip needs lists of one length. */
 static pg_status count_runs (sweep *s)
 {
     pg_status status = PG_OK;
@@ -73,7 +73,8 @@ done:
     return status;
 }
 
-/* Letters, digits and . + - = stay; blanks are left out, each run of other characters becomes a dash. */
+/* Appends a text to a name of a folder: letters, digits and . + - = _ stay; blanks are left out, each run of
+ * other characters becomes a dash. Returns the length. */
 static size_t append_name (char *out, size_t at, size_t size, const char *text)
 {
     int dash = 0;
@@ -92,7 +93,8 @@ static size_t append_name (char *out, size_t at, size_t size, const char *text)
     return at;
 }
 
-/* "spacing=2mm_fracture_energy=20", or "run_0007" where that is too long or stands for two runs. */
+/* Names the runs: "spacing=2mm_fracture_energy=20", or "run_0007" where that is too long or equal for two
+ * runs. */
 static void name_runs (sweep *s)
 {
     for (size_t i = 0; i < s->n; i++) {
@@ -112,7 +114,7 @@ static void name_runs (sweep *s)
     }
 }
 
-/* The last key turns fastest. */
+/* Makes the runs, that is all combinations; the value of the last key changes fastest. */
 static pg_status make_runs (sweep *s)
 {
     pg_status status = PG_OK;
@@ -147,7 +149,7 @@ static void gather (char *all, size_t size, const char *message)
     }
 }
 
-/* Faults of keys and values, of all combinations at once; folders that hold something else. */
+/* Fails for wrong keys and values, of all combinations at once, and for folders that hold another run. */
 static pg_status look_at_all (const sweep *s, const pg_series_request *all)
 {
     pg_status status = PG_OK, found;
@@ -173,7 +175,7 @@ done:
     return status;
 }
 
-/* A folder with a sweep in it is not touched unasked. */
+/* Fails if the folder has a sweep already and --resume was not given. */
 static pg_status look_at_folder (const sweep *s)
 {
     pg_status status = PG_OK;
@@ -188,7 +190,8 @@ done:
 }
 
 /* ---- the sweep -------------------------------------------------------------------------------------- */
-/* A run is over: its numbers go into the table at once, so that whatever happens later it is there. */
+/* Takes the results of a run that has ended; they go into the table at once, so that they are there whatever
+ * happens later. */
 static pg_status take (void *context, size_t k)
 {
     pg_status status = PG_OK;
@@ -199,7 +202,7 @@ done:
     return status;
 }
 
-/* sweep.png of the first column, and sweep_NAME.png of others that were asked for. */
+/* Draws sweep.png of the first column, and sweep_NAME.png of others that were asked for. */
 static pg_status draw_all (const sweep *s, char *names, size_t size)
 {
     pg_status status = PG_OK;
@@ -217,7 +220,7 @@ done:
     return status;
 }
 
-/* How it went, in a line or two, and what is there. */
+/* Prints the outcome of the sweep, in a line or two, and the files. */
 static void tell (const sweep *s, const char *pictures)
 {
     size_t done = 0, failed = 0, warned = 0;
@@ -240,7 +243,7 @@ static void clear (sweep *s)
     pg_free (s);
 }
 
-/* What has come to its end is told and drawn even if the rest was interrupted. */
+/* Runs a sweep. Finished runs are reported and drawn even if the rest was interrupted. */
 pg_status pg_sweep_run (const pg_sweep_request *q)
 {
     pg_status status = PG_OK, outcome = PG_OK;

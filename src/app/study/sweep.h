@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * sweep.h: the parts of a sweep: keys with their values, the runs, the columns of the table. */
+ * The parts of a sweep: keys with their values, the runs, the columns of the table. */
 #ifndef PG_STUDY_SWEEP_H
 #define PG_STUDY_SWEEP_H
 #include "series.h"
 
 enum { SWEEP_WORD = 512, SWEEP_HEAD = 192 };
-/* A key of which several values are wanted. */
+/* A key of the scene that takes several values. */
 typedef struct {
-    /* "materials.rock.youngs_modulus"; "youngs_modulus", unless another key of the sweep ends so too. */
+    /* The key, "materials.rock.youngs_modulus"; its label, "youngs_modulus", unless another key of the sweep
+     * ends alike. */
     char   key[256], label[256];
     size_t n;
     /* The values as written, "2 mm", and "key=value" for the command line (n each). */
     char  (*word)[SWEEP_WORD], (*setting)[SWEEP_WORD + 256];
-    /* 1: all are numbers of one unit, which are here as written (n); "": they have none, or it is 1. */
+    /* 1: all values are numbers with one unit; the numbers as written (n); the unit, "" if there is none, or
+     * it is 1. */
     int     numeric;
     double *number;
     char    unit[64];
@@ -21,7 +23,8 @@ typedef struct {
 } sweep_key;
 
 enum { SWEEP_LAST, SWEEP_FIRST, SWEEP_LEAST, SWEEP_LARGEST, SWEEP_AT_PEAK };
-/* A column of numbers: of report.json (block and key), or of history.csv (column and which of its values). */
+/* A column of numbers: from report.json (block and key), or from history.csv (column, and which of its
+ * values). */
 typedef struct {
     char        name[128], unit[32];
     const char *block, *key;
@@ -29,7 +32,7 @@ typedef struct {
     int         which;
 } sweep_column;
 
-/* A sweep: its keys, its runs (n) with the index of each key's value (n x nkey), what they left, and the
+/* A sweep: its keys, its runs (n) with the index of each key's value (n x nkey), their results, and the
  * columns (ncolumn) with their values (n x ncolumn; NAN: not known). */
 typedef struct {
     const pg_sweep_request *q;
@@ -48,11 +51,12 @@ typedef struct {
 /* Cuts "key=a,b,c" into a key with its values (sweep_keys.c). PG_E_USAGE. */
 pg_status pg_sweep_key_read  (sweep_key *out, const char *set);
 void      pg_sweep_key_clear (sweep_key *key);
-/* The columns that are asked for, or the usual ones (sweep_table.c). PG_E_USAGE. */
+/* Chooses the columns that are asked for, or the default ones (sweep_table.c). PG_E_USAGE: there is no such
+ * column. */
 pg_status pg_sweep_columns   (sweep *s);
-/* Reads what run k left. PG_E_USAGE: the first result that is there lacks a column. */
+/* Reads the results of run k. PG_E_USAGE: the first result that exists lacks a column. */
 pg_status pg_sweep_take      (sweep *s, size_t k);
-/* Writes sweep.csv anew. */
+/* Writes the whole sweep.csv again. */
 pg_status pg_sweep_write     (const sweep *s);
 /* Draws the column c, if there is something to draw: *drawn = 1 (sweep_picture.c). */
 pg_status pg_sweep_draw      (int *drawn, const sweep *s, size_t c, const char *path);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What stands behind --set of a sweep: a key and its values, one after the other or as a range. */
+ * Values of --set KEY=... of a sweep: a key and its values, one after the other or as a range. */
 #include "sweep.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The end of the value that begins at s: a comma or the end of the text, outside of brackets and quotes. */
+/* Returns the end of the value that begins at s: a comma or the end of the text, outside of brackets and
+ * quotes. */
 static const char *end_of_value (const char *s)
 {
     int depth = 0;
@@ -38,11 +39,11 @@ done:
     return status;
 }
 
-/* A number as people write it, which neither "nan" nor "infinity" is. */
+/* 1: the text begins like a number; "nan" and "infinity" do not count. */
 static int starts_number (const char *s) { return *s && strchr ("+-.0123456789", *s) != NULL; }
 
-/* "1:20", "1:0.5:3 mm": from, step, to, and a unit. Returns how many numbers there are between the colons;
- * 0: this is no range. */
+/* Reads a range such as "1:20", "1:0.5:3 mm": from, step, to, and a unit. Returns the number of numbers
+ * between the colons; 0: this is no range. */
 static int read_range (const char *text, double number[3], const char **unit)
 {
     int n = 0;
@@ -56,8 +57,8 @@ static int read_range (const char *text, double number[3], const char **unit)
     return n < 2 || strchr (*unit, ':') ? 0 : n;
 }
 
-/* Values of a range, written with at most 12 digits so that 0.1 + 2 x 0.1 becomes 0.3; its end counts if
- * the steps reach it to 1e-9 of a step. */
+/* Appends the values of a range, written with at most 12 digits so that 0.1 + 2 x 0.1 becomes 0.3; its end
+ * counts if the steps reach it to 1e-9 of a step. */
 static pg_status append_range (sweep_key *k, size_t *capacity, int numbers, const double number[3],
                                const char *unit)
 {
@@ -78,7 +79,7 @@ done:
 }
 
 /* ---- numbers ---------------------------------------------------------------------------------------- */
-/* The number of a value and the text behind it, blanks between them skipped; 0: it is none. */
+/* Splits a value into its number and its unit, skipping blanks between them; 0: it is no number. */
 static int cut_number (const char *word, double *value, const char **unit)
 {
     char *end;
@@ -91,7 +92,7 @@ static int cut_number (const char *word, double *value, const char **unit)
     return end != word && isfinite (*value) && !isdigit ((unsigned char) *end);
 }
 
-/* All values in the unit of the first one, as written; where units differ, in SI. */
+/* Reads all values as numbers in the unit of the first one; if units differ, in SI. */
 static pg_status read_numbers (sweep_key *k)
 {
     pg_status status = PG_OK;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * sweep.png: a quantity over the key with most numbers, a curve for each combination of the others; over
- * seeds the single runs as markers and their mean as a line. A histogram where no key is left to draw
- * over: keys without numbers, seeds alone, or more curves than an eye can tell apart. */
+ * sweep.png: a quantity over the numeric key with most values, a curve for each combination of the other
+ * keys; with seeds the single runs as markers and their mean as a line. A histogram is drawn if there is no
+ * such key, or if there would be more curves than an eye can tell apart. */
 #include "perigal/picture.h"
 #include "sweep.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Curves of a picture, most; of scatters, each of which takes two, half as many. */
+/* Largest number of curves; half as many if seeds make each of them two: markers and their mean. */
 enum { CURVES = 10 };
 
-/* What is drawn over: the key; and the combination of the keys that are neither that nor seeds. */
+/* x: index of the key on the x axis; seeds: 1 if a key of the sweep is a seed. */
 typedef struct { size_t x; int seeds; } axes;
 
-/* The key of numbers with most values; the first of equal ones. Returns 0 if there is none. */
+/* Chooses the key of numbers with most values, the first of equal ones. Returns 0 if there is none. */
 static int choose (axes *a, const sweep *s)
 {
     size_t most = 0;
@@ -26,7 +26,7 @@ static int choose (axes *a, const sweep *s)
     return most > 0;
 }
 
-/* Do the runs i and j belong to one curve? With --zip all values go together, and there is one curve. */
+/* 1: the runs i and j belong to one curve. With --zip all values change together, and there is one curve. */
 static int same_curve (const sweep *s, const axes *a, size_t i, size_t j)
 {
     for (size_t k = 0; k < s->nkey && !s->q->zip; k++)
@@ -34,7 +34,7 @@ static int same_curve (const sweep *s, const axes *a, size_t i, size_t j)
     return 1;
 }
 
-/* "fracture_energy = 20 J/m2, force = bond": the values that the curve of run i has to itself. */
+/* Names the curve of run i by the values that distinguish it: "fracture_energy = 20 J/m2, force = bond". */
 static void name_curve (const sweep *s, const axes *a, size_t i, char *out, size_t size)
 {
     size_t n = 0;
@@ -53,7 +53,7 @@ static int by_x (const void *a, const void *b)
     return (p->x > q->x) - (p->x < q->x);
 }
 
-/* The places of the curve that begins with run `first`, by rising x; how many. */
+/* Lists the points of the curve that begins with run `first`, by rising x; returns their number. */
 static size_t places_of (place *out, const sweep *s, const axes *a, size_t first, size_t c, double factor)
 {
     size_t n = 0;
@@ -66,7 +66,7 @@ static size_t places_of (place *out, const sweep *s, const axes *a, size_t first
     return n;
 }
 
-/* The mean of the places at each x. */
+/* Computes the mean of the points at each x; returns the number of means. */
 static size_t means_of (double *x, double *y, size_t n, const place *p)
 {
     size_t m = 0;
@@ -78,8 +78,8 @@ static size_t means_of (double *x, double *y, size_t n, const place *p)
     return m;
 }
 
-/* A curve, or a scatter and the line of its means; returns how many curves that are. x, y have room for 2
- * n. */
+/* Adds a curve, or with seeds markers and the line of their means; returns the number of curves added. x, y
+ * have room for 2 n values. */
 static size_t add_curve (pg_curve *curve, double *x, double *y, const char *name, size_t n, const place *p,
                          int seeds)
 {
@@ -126,7 +126,7 @@ done:
     return status;
 }
 
-/* How many curves there would be. */
+/* Number of curves that there would be. */
 static size_t count_curves (const sweep *s, const axes *a)
 {
     size_t n = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * sweep.csv: one row a run: its number, the values of the keys, the quantities, warnings, seconds, and then
- * words: values that are no numbers, how the run ended, its folder, what went wrong. */
+ * words: values that are no numbers, how the run ended, its folder, the reason of a failure. */
 #include "sweep.h"
 #include <errno.h>
 #include <math.h>
@@ -26,12 +26,13 @@ const char pg_sweep_report_names[] = REPORTED (X) "";
 #undef X
 enum { REPORTS = sizeof reported / sizeof *reported };
 
-/* The columns of a sweep that names none; then gauges. */
+/* The default columns, to which gauges are added. */
 static const char *const usual[] = { "peak", "displacement", "load_factor", "energy_strain", "energy_kinetic",
                                      "energy_external", "energy_dissipated", "broken", "events" };
 
 /* ---- columns ---------------------------------------------------------------------------------------- */
-/* "top.force_y:max" cut at its colon; other names have no colon. */
+/* Splits the name of a column of history.csv at its colon, "top.force_y:max"; without a colon the last value
+ * counts. */
 static pg_status column_of_history (sweep_column *c, const char *text)
 {
     pg_status status = PG_OK;
@@ -68,8 +69,8 @@ done:
     return status;
 }
 
-/* The gauges of the scene, their last opening and that at the peak. A key of the sweep may change them:
- * those of the first run count. A wrong scene is told elsewhere. */
+/* Adds the gauges of the scene: their last opening and that at the peak. If a key of the sweep changes them,
+ * those of the first run count. A wrong scene is reported elsewhere. */
 static pg_status add_gauges (sweep *s, size_t *capacity)
 {
     pg_status status = PG_OK;
@@ -109,7 +110,7 @@ done:
 }
 
 /* ---- numbers of a run ------------------------------------------------------------------------------- */
-/* The value of a column that is asked for; peak: number of the step of the peak. */
+/* Finds the value of a column that `which` asks for; peak: number of the step of the peak. */
 static double value_of (const pg_csv *csv, size_t column, int which, double peak)
 {
     double found = NAN;
@@ -128,7 +129,7 @@ static double value_of (const pg_csv *csv, size_t column, int which, double peak
     return found;
 }
 
-/* The unit in a heading, "N" of "top.force_y [N]". */
+/* Copies the unit of a heading, "N" of "top.force_y [N]". */
 static void unit_of (const char *head, char *out, size_t size)
 {
     const char *open = strrchr (head, '[');
@@ -136,7 +137,7 @@ static void unit_of (const char *head, char *out, size_t size)
     if (open) snprintf (out, size, "%.*s", (int) n, open + 1);
 }
 
-/* No run has shown a column of that name: names those that there are. */
+/* Fails since a finished run has no column of that name; the message lists the columns that there are. */
 static pg_status unknown_column (const sweep_column *c, const pg_csv *csv, const char *folder,
                                  const char *run)
 {
@@ -157,7 +158,7 @@ done:
     return status;
 }
 
-/* Entries of the list of warnings in a report. */
+/* Number of warnings in a report; NAN without a list. */
 static double count_warnings (const char *report)
 {
     const char *at = report ? strstr (report, "\"warnings\": [") : NULL;
@@ -171,7 +172,8 @@ static double count_warnings (const char *report)
     return n;
 }
 
-/* What is not there yet, as of a run that was interrupted before its first step, stays empty. */
+/* Reads the results of run k; missing ones, as of a run that was interrupted before its first step, stay
+ * empty. */
 pg_status pg_sweep_take (sweep *s, size_t k)
 {
     pg_status status = PG_OK;
@@ -202,7 +204,7 @@ done:
 }
 
 /* ---- the table -------------------------------------------------------------------------------------- */
-/* A text of a cell: in quotes where it holds a comma, a quote or a line's end. */
+/* Writes a text as a cell, in quotes if it holds a comma, a quote or a line's end. */
 static void put_text (FILE *f, const char *text)
 {
     if (!text[strcspn (text, ",\"\r\n")]) {
@@ -214,14 +216,14 @@ static void put_text (FILE *f, const char *text)
     fputc ('"', f);
 }
 
-/* A number, or nothing where it is not known. */
+/* Writes a number as a cell, empty if it is not known. */
 static void put_number (FILE *f, double x)
 {
     if (isfinite (x)) fprintf (f, ",%.17g", x);
     else fputc (',', f);
 }
 
-/* Are seconds among the columns that were asked for? Else they stand behind these. */
+/* 1: seconds are among the columns that were asked for; if not they follow these. */
 static int names_seconds (const sweep *s)
 {
     int named = 0;
@@ -275,7 +277,7 @@ static void put_row (FILE *f, const sweep *s, size_t i)
     fputc ('\n', f);
 }
 
-/* Written beside and renamed, so that the table is whole at any instant. */
+/* Writes sweep.csv under another name and renames it, so that the table is complete at any instant. */
 pg_status pg_sweep_write (const sweep *s)
 {
     pg_status status = PG_OK;

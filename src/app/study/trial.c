@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One run in a process of its own, seen from the process that starts it. Its numbers come back
- * as lines of text on stdout, its message, if it fails, as the first line of its log. */
+ * One run in a process of its own: the part of the process that starts it. The numbers come back as lines of
+ * text on stdout, the message of a failure as the first line of the log. */
 #include "perigal/study.h"
 #include "process.h"
 #include <math.h>
@@ -14,7 +14,8 @@ const char *const pg_trial_name[PG_TRIAL_COUNT] = { PG_TRIAL_LIST (X) };
 const char *const pg_trial_unit[PG_TRIAL_COUNT] = { PG_TRIAL_LIST (X) };
 #undef X
 
-/* Unknown names are ignored, so that versions may differ. */
+/* Reads the numbers of a trial from lines "name value"; unknown names are ignored, so that versions may
+ * differ. */
 void pg_trial_read (pg_trial *out, const char *text)
 {
     for (size_t k = 0; k < PG_TRIAL_COUNT; k++) {
@@ -25,14 +26,14 @@ void pg_trial_read (pg_trial *out, const char *text)
     }
 }
 
-/* 17 digits: the same doubles on both sides. */
+/* Writes the numbers of a trial with 17 digits, which give the same doubles when they are read. */
 void pg_trial_write (const pg_trial *t, FILE *to)
 {
     for (size_t k = 0; k < PG_TRIAL_COUNT; k++)
         if (!isnan (t->value[k])) fprintf (to, "%s %.17g\n", pg_trial_name[k], t->value[k]);
 }
 
-/* The exit code of the child decides the status: a wrong scene, an interruption, any other
+/* Runs a trial. The exit code of the child decides the status: a wrong scene, an interruption, any other
  * failure. The log stays if the run failed. */
 pg_status pg_trial_run (pg_trial *out, const pg_trial_request *q)
 {

@@ -17,7 +17,7 @@ static double of_lines (const pg_errors *e)
     return reference > 0 ? sqrt (difference / reference) : NAN;
 }
 
-/* What was not measured stays NAN. */
+/* Copies the errors into a trial; those that were not measured stay NAN. */
 void pg_trial_take (pg_trial *t, const pg_errors *e)
 {
     if (e->norms.displacement)
@@ -26,7 +26,8 @@ void pg_trial_take (pg_trial *t, const pg_errors *e)
     if (e->nline) t->value[PG_TRIAL_LINES] = of_lines (e);
 }
 
-/* dynamic = 1: expressions of the reference take the time, else the load factor. */
+/* Measures the errors of a state; dynamic = 1: expressions of the reference take the time, else the load
+ * factor. */
 pg_status pg_trial_errors (pg_trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
                         const pg_state *state, int dynamic)
 {

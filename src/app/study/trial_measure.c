@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the process of a trial does: build, solve, leave the results, count seconds and bytes,
- * measure the error. */
+ * The work in the process of a trial: build, solve, write the results, count seconds and bytes, measure the
+ * error. */
 #include "trial.h"
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static double cpu_now (void)
            + 1e-6 * (double) (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
-/* Sizes, and seconds of the solver by phase. */
+/* Counts sizes, and seconds of the solver by phase. */
 static void count (pg_trial *t, const pg_problem *p, const pg_state *state, const pg_statistics *r)
 {
     static const int phase[PG_SECONDS_COUNT] = {
@@ -75,8 +75,7 @@ done:
     return status;
 }
 
-/* The problem is built with the threads of the trial; its time counts from the start of the
- * process. */
+/* Measures a trial. The problem is built with its threads; its time counts from the start of the process. */
 pg_status pg_trial_measure (pg_trial *t, const pg_scene *scene, const char *folder, int threads, double start)
 {
     pg_status status = PG_OK;

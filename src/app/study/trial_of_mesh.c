@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result measured against the reference of a scene by the same norms as our own results:
- * the closed forms over its own elements (pg_errors_mesh), so that no interpolation between two
- * discretisations enters, the tables where they stand. Materials, the condition `reference.where` and the
+ * A finite element result measured against the reference of a scene by the norms that are used for our own
+ * results: the closed forms over its own elements (pg_errors_mesh), so that no interpolation between two
+ * discretisations enters, tables at their own positions. Materials, the condition `reference.where` and the
  * sampling of the result are those of every other comparison (compare.h). */
 #include "trial.h"
 
-/* The norms of the closed forms; none where the reference has tables only. Expressions are taken at t = 1,
- * the full load. */
+/* Measures the norms against the closed forms; none if the reference has tables only. Expressions are taken
+ * at t = 1, the full load. */
 static pg_status measure_norms (pg_norms *out, const pg_reference *reference, const pg_problem *problem,
                                 const char *path, double unit)
 {
@@ -23,7 +23,8 @@ done:
     return status;
 }
 
-/* The problem of the scene is built for its dimension, its materials and its reference only. */
+/* Measures a finite element result. The problem of the scene is built for its dimension, materials and
+ * reference only. */
 pg_status pg_trial_of_mesh (pg_trial *t, const pg_scene *scene, const char *path, double unit)
 {
     pg_status status = PG_OK;
@@ -37,7 +38,8 @@ pg_status pg_trial_of_mesh (pg_trial *t, const pg_scene *scene, const char *path
     PG_TRY (pg_scene_verdict (scene));
     if (!reference) PG_FAIL (PG_E_SCENE, "%s: the scene has no reference", pg_scene_file (scene));
     PG_TRY (pg_sampler_mesh (&value, path, -1, unit, problem));
-    /* tables; the norms over the cells of the scene give way to those over the result's own elements */
+    /* measures the tables; norms over cells of the scene are replaced by those over the result's own
+     * elements */
     PG_TRY (pg_errors_measure (&e, reference, problem, &value, 1));
     PG_TRY (measure_norms (&e.norms, reference, problem, path, unit));
     pg_trial_take (t, &e);

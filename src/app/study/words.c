@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Small parts of every study: lists of words from a command line, and exit codes of processes. */
+ * Functions that every study uses: lists of words from a command line, and exit codes of processes. */
 #include "perigal/study.h"
 #include <string.h>
 
-/* Cuts at commas. An empty word, such as in "a,,b", is refused rather than skipped: it usually
+/* Splits a list at its commas. An empty word, such as in "a,,b", is refused rather than skipped: it usually
  * is a slip. */
 int pg_word_list_split (pg_word_list *out, const char *text)
 {
@@ -18,7 +18,8 @@ int pg_word_list_split (pg_word_list *out, const char *text)
     }
 }
 
-/* Everything that is neither the user's command line nor the scene counts as failed. */
+/* Turns a status into an exit code. Every failure but those of the command line, the scene or an interruption
+ * counts as "failed". */
 int pg_exit_code (pg_status status)
 {
     switch (status) {
