@@ -13,13 +13,13 @@ typedef struct {
     pg_forecast whole, largest;                        /* of one process; of the rank with the largest peak */
     /* peak bytes of each rank (c->ranks); points of the body */
     double     *peak, total;
-    pg_part_size *part;                                /* of each rank */
+    pg_part_size *part;                                /* sizes of each rank's part */
     int         divided, components, rank;             /* values a point exchanges; rank of `largest` */
     const char *occasion;                              /* when ghosts are exchanged: "a time step" ... */
     pg_statistics warned;                              /* warnings of the built problem */
 } outlook;
 
-/* ---- finding out --------------------------------------------------------------------------------------- */
+/* ---- forecast of the ranks ----------------------------------------------------------------------------- */
 /* Looks for all faults that a run on so many ranks would report, and for its warnings. If the whole body does
  * not fit this machine the problem is not built, and faults that show only then are not looked for (*built
  * 0). */
@@ -72,7 +72,7 @@ static void foresee (outlook *o, const pg_scene *scene)
     }
 }
 
-/* ---- words --------------------------------------------------------------------------------------------- */
+/* ---- printing ------------------------------------------------------------------------------------------ */
 /* Least, largest and mean over the ranks of a number of each part. */
 typedef struct { double least, most, mean; } spread;
 static spread spread_of (const outlook *o, double (*number) (const pg_part_size *))

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The command line. */
+/* What the command line asks for. */
 typedef struct { const char *scene, *picture, *csv, *set[64]; size_t nset; int quiet; } request;
 
 /* The long name of a short option; other words stay as they are. */
@@ -64,7 +64,7 @@ static void said (void *context, const char *name)
     if (!q->quiet) printf ("  written             %s\n", name);
 }
 
-/* Reads, measures, then writes what was asked for. */
+/* Runs the command: reads the cracks, measures them, then writes what was asked for. */
 int pg_cli_cracks (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -290,7 +290,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
 typedef struct {
     command    c;
     preparation p;
-    char       folder[4096];                           /* of the results */
+    char       folder[4096];                           /* result folder */
     watched    w;
     int        finished;                               /* 1: --resume of a finished run */
 } run;

@@ -33,7 +33,7 @@ static void end_before_results (void)
  * runs passes it on. */
 int command_same_request (const struct timespec *since)
 {
-    const double together = 0.5;                       /* s */
+    const double together = 0.5;                       /* s, between the signals of one request */
     struct timespec now;
     clock_gettime (CLOCK_MONOTONIC, &now);
     return (double) (now.tv_sec - since->tv_sec) + 1e-9 * (double) (now.tv_nsec - since->tv_nsec) < together;
@@ -44,7 +44,8 @@ int command_same_request (const struct timespec *since)
 static void *wait_for_signals (void *none)
 {
     int number;
-    struct timespec since[64];                         /* first time of each signal; numbers are below 64 */
+    /* when each signal first came, by its number (below 64) */
+    struct timespec since[64];
     sigset_t seen;
     pg_signals before;
     pg_signals_hold (&before);

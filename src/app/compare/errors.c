@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Norms of a body without cells: its points with their volumes. */
+/* Measures the norms of a body without cells: at its points, weighted by their volumes. */
 static pg_status over_points (pg_norms *out, const pg_problem *p, const pg_expression *where,
                               const pg_sampler *value, const pg_sampler *reference)
 {
@@ -25,9 +25,9 @@ done:
     return status;
 }
 
-/* |u - u_ref| at the points of the body (out->difference), which also take part in the maximum
- * norm: between quadrature points the largest error often lies at the boundary, where points
- * are. Points outside the condition, and those without a value, are NAN. */
+/* Computes |u - u_ref| at the points of the body (out->difference), which also take part in the maximum norm:
+ * between quadrature points the largest error often lies at the boundary, where points are. Points outside
+ * the condition, and those without a value, are NAN. */
 static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value,
                             const pg_sampler *reference, const pg_expression *where)
 {
@@ -64,7 +64,7 @@ done:
     return status;
 }
 
-/* Norms of all columns of all tables. */
+/* Measures the norms of all columns of all tables. */
 static pg_status lines (pg_errors *out, const pg_reference *r, const pg_sampler *value)
 {
     pg_status status = PG_OK;
@@ -118,7 +118,7 @@ done:
     return status;
 }
 
-/* May be called for errors that were never measured. What is left is zero, thus "not measured". */
+/* Frees errors, even if they were never measured. What is left is zero, thus "not measured". */
 void pg_errors_clear (pg_errors *errors)
 {
     pg_free (errors->line), pg_free (errors->difference);
@@ -161,7 +161,7 @@ static void json_line (pg_json *j, const pg_line_norms *l)
     pg_json_shut (j);
 }
 
-/* Norms that were not measured have no entry. */
+/* Writes the errors as JSON; norms that were not measured have no entry. */
 void pg_errors_json (pg_json *j, const pg_errors *e)
 {
     const pg_norms *n = &e->norms;
@@ -178,8 +178,8 @@ void pg_errors_json (pg_json *j, const pg_errors *e)
     pg_json_shut (j);
 }
 
-/* i counts down through the rows that exist, since displacement, stress and the note may each
- * be missing. */
+/* Writes row i of the report; i counts down through the rows that exist, since displacement, stress and the
+ * note may each be missing. */
 int pg_errors_row (const pg_errors *e, size_t i, char *text, size_t size)
 {
     const pg_norms *n = &e->norms;

@@ -11,7 +11,8 @@
 
 enum { MOST_COLUMNS = 64, PLACE = 16 };                /* PLACE + k: coordinate k */
 
-/* A zero byte would hide the rest of the text from the string functions, so it is refused. */
+/* Reads a text file. A zero byte would hide the rest of the text from the string functions, so it is
+ * refused. */
 pg_status pg_compare_load_text (const char *path, char **text)
 {
     pg_status status = PG_OK;
@@ -172,7 +173,7 @@ done:
     return status;
 }
 
-/* The first line that is neither empty nor a comment is the header. A byte order mark at the
+/* Reads a table. The first line that is neither empty nor a comment is the header. A byte order mark at the
  * beginning, which spreadsheets write, is skipped. */
 pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor,
                         const double *along)
@@ -201,8 +202,8 @@ done:
     return status;
 }
 
-/* A displacement that is known only up to a rigid translation is compared after that of the
- * datum is taken off on both sides; the table is relative already. */
+/* Samples a field at the rows of a table. Displacements of a table with a datum are relative to it (known up
+ * to a rigid translation): the sampled value at the datum is subtracted. */
 pg_status pg_line_sample (const pg_line *line, const pg_sampler *value, double *u, double *stress)
 {
     pg_status status = PG_OK;

@@ -106,7 +106,8 @@ done:
     return status;
 }
 
-/* All components count as known; single places may still be NAN. */
+/* Makes a sampler of a finite element result. All components count as known; values at single points may be
+ * NAN. */
 pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double unit,
                            const pg_problem *problem)
 {

@@ -312,7 +312,7 @@ static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, c
     close_norm (&out->l2), close_norm (&out->maximum);
 }
 
-/* All columns share one sampling of the rows. */
+/* Measures all columns of a table, which share one sampling of its rows. */
 pg_status pg_line_measure (pg_line_norms *out, const pg_line *line, const pg_sampler *value)
 {
     pg_status status = PG_OK;

@@ -62,8 +62,8 @@ pg_observed pg_observed_of_values (size_t n, const double *h, const double *valu
     return o;
 }
 
-/* Two errors suffice, since their limit is known to be zero. An error that is exactly zero has
- * no logarithm. */
+/* Finds the order from the last two errors, which suffice, since their limit is known to be zero. An error
+ * that is exactly zero has no logarithm. */
 pg_observed pg_observed_of_errors (size_t n, const double *h, const double *error)
 {
     if (n < 2) return none (0, NAN, "two sizes are needed");

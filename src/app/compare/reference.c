@@ -143,8 +143,8 @@ done:
     return status;
 }
 
-/* All faults of the section are collected before the scene gives its verdict, so that the user
- * sees them at once. */
+/* Reads the section. All its faults are collected before the scene gives its verdict, so that the user sees
+ * them at once. */
 pg_status pg_reference_read (pg_reference **out, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -228,7 +228,7 @@ pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *r, double t
     memset (out, 0, sizeof *out);
     if (r->mesh.sample) {
         *out = r->mesh;
-        out->free = NULL;                              /* the reference keeps it */
+        out->free = NULL;                              /* the reference owns the mesh */
         return PG_OK;
     }
     PG_ALLOC (f, 1);

@@ -170,7 +170,7 @@ static void free_points (void *context)
     pg_free (s);
 }
 
-/* The displacements are copied, so that the caller may go on and change the state. */
+/* Makes a sampler of displacements at points, which are copied, so that the caller may change the state. */
 pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const double *u,
                              const unsigned char *torn)
 {
@@ -202,7 +202,7 @@ done:
     return status;
 }
 
-/* ---- moved --------------------------------------------------------------------------------------------- */
+/* ---- shifted and scaled fields ------------------------------------------------------------------------- */
 /* Context of a sampler: a field that is shifted (m) and scaled. */
 typedef struct { pg_sampler field; double shift[3], factor; } moved;
 
@@ -230,7 +230,8 @@ static void free_moved (void *context)
     pg_free (m);
 }
 
-/* The given sampler becomes part of the new one, which frees it. */
+/* Makes a sampler of a shifted and scaled field; the given sampler becomes part of it and is freed with
+ * it. */
 pg_status pg_sampler_moved (pg_sampler *out, pg_sampler *sampler, const double *shift, double factor)
 {
     pg_status status = PG_OK;

@@ -84,7 +84,7 @@ static pg_status take_rows (shared *s, const pg_sparse *A)
     PG_ALLOC (s->column, (size_t) s->start[rows]);
     PG_ALLOC (s->from, (size_t) s->start[rows]);
     PG_ALLOC (s->value, (size_t) s->start[rows]);
-    /* rows above the diagonal come column by column, those below it by their own column: ascending */
+    /* each row gets its columns up to the diagonal first, then those beyond it: columns ascend */
     for (size_t j = 0; j < A->ncol; j++)
         for (long p = A->start[j]; p < A->start[j + 1]; p++)
             note (s, (long) j, A->row[p], p, fill);
@@ -148,7 +148,8 @@ static pg_status analyse (shared *s, PetscInt room)
     /* ordering by METIS, where MUMPS has it, on one rank: equal for any number of ranks */
     PG_TRY (said (MatMumpsSetIcntl (s->F, 28, 1), "MUMPS"));
     PG_TRY (said (MatMumpsSetIcntl (s->F, 7, 5), "MUMPS"));
-    PG_TRY (said (MatMumpsSetIcntl (s->F, 13, 1), "MUMPS"));       /* counts of pivots at the root too */
+    /* root without ScaLAPACK: its pivots count too */
+    PG_TRY (said (MatMumpsSetIcntl (s->F, 13, 1), "MUMPS"));
     PG_TRY (said (MatMumpsSetIcntl (s->F, 14, room), "MUMPS"));
     PG_TRY (said (MatCholeskyFactorSymbolic (s->F, s->A, NULL, &info), "the analysis"));
     s->room = room;

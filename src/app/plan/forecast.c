@@ -136,13 +136,14 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
     int listed = f->is.listed || f->is.by_list, factors = f->linear != NULL;
     double different = all;
     if (f->is.shared && !f->is.interpolates) different = fmin (all, most_different * all / rows + part);
-    bytes = (16 + 8 * d) * different + rows * (16 * nv + 8 * d + 45) + 24 * f->count.dofs; /* galerkin */
-    bytes += (12 + 8 * d) * f->count.summed;  /* pg_consistency */
-    bytes += (4 + 8 * d * (d + 1)) * f->count.patched;  /* galerkin_dilatation */
-    if (!f->method->shape_functions)  /* pg_bond_loop, bond */
+    /* values and strains of rows in galerkin */
+    bytes = (16 + 8 * d) * different + rows * (16 * nv + 8 * d + 45) + 24 * f->count.dofs;
+    bytes += (12 + 8 * d) * f->count.summed;  /* entries of pg_consistency */
+    bytes += (4 + 8 * d * (d + 1)) * f->count.patched;  /* entries of the projected dilatation */
+    if (!f->method->shape_functions)  /* peridynamic forces: pg_bond_loop */
         bytes = (listed ? (f->rotations ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->rotations) * n
                 + (factors ? 0 : 8 * f->count.dofs);
-    if (f->is.matrixless && f->rotations) /* dilatations */
+    if (f->is.matrixless && f->rotations) /* dilatations of state-based forces */
         bytes += (listed ? 9 : 0.25) * all + (120 + 40 * d) * n;
     return bytes;
 }
@@ -160,7 +161,8 @@ static double vector_bytes (const pg_forecast *f)
     double d = f->dim, n = f->count.points, m = d + f->rotations, corners = pow (2, d), bytes;
     int at_rest = !f->is.explicit_ && !f->is.dynamic, small = f->is.explicit_ || mass_dominates (f);
     bytes = (2 * 3 + 13 + 2 * 5) * 8 * f->count.dofs;
-    if (f->is.matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));      /* lps_rows.c */
+    /* state-based rows */
+    if (f->is.matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));
     if (!f->method->shape_functions && !f->linear && at_rest)
         bytes += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
     if (f->method->shape_functions && !f->linear) bytes += 100 * (f->is.nodal ? n : f->count.evaluation);
@@ -212,8 +214,10 @@ void pg_forecast_sum (pg_forecast *f)
     f->count.dofs = n * m;
     f->matrix_entries = (f->count.pairs - n) * m * m + n * m * (m + 1) / 2;
     b[PG_BYTES_PROGRAM] = program_bytes (f);
-    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->count.cells * 8 * d * pow (2, d);  /* pg_cloud, pg_cells */
-    b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows */
+    /* arrays of pg_cloud, pg_cells */
+    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->count.cells * 8 * d * pow (2, d);
+    /* arrays of pg_rows */
+    b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);
     b[PG_BYTES_SHAPES] = shape_bytes (f, all, rows);
     /* bytes a bond: two states; arrays of break_loop; the bonds that K was factored with */
     b[PG_BYTES_BREAKING] = (2 + (f->is.explicit_ || !f->is.breaks ? 0 : 17) + (f->linear != NULL)) * all;
@@ -231,7 +235,7 @@ void forecast_factor (pg_forecast *f)
     dissect (f, &f->factor_entries, &f->factor_flops);
 }
 
-/* ---- from the problem ---------------------------------------------------------------------------------- */
+/* ---- counts of the built problem ----------------------------------------------------------------------- */
 /* Counts nodes whose displacement along axis k the transformation method eliminates (role 1), and their
  * neighbours (role 2): a dense inverse and a dense product for them. */
 static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned char *role)
@@ -323,7 +327,7 @@ void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, d
     pg_forecast_sum (f);
 }
 
-/* ---- what would fit ------------------------------------------------------------------------------------ */
+/* ---- runs that fit into the memory --------------------------------------------------------------------- */
 /* Returns the forecast for another spacing h': counts of the body times (h / h')^dim, of faces with one power
  * less, the factor as dissection scales it. Points at the vertices of n cells along an edge are n + 1. */
 pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)

@@ -35,7 +35,8 @@ static void add_levels (pg_forecast *g, const pg_forecast *f, double owned, doub
     double d = f->dim, m = f->dim + f->rotations,
            couplings = f->count.points > 0 ? 2 * f->count.pairs / f->count.points - 1 : 0;
     int off = f->is.listed || f->is.irregular;
-    if (off && f->method->shape_functions) couplings = pow (3, d);  /* nodes next to one in elements */
+    /* nodes that share an element with a node */
+    if (off && f->method->shape_functions) couplings = pow (3, d);
     if (off) add (g, PG_BYTES_MATRIX, loaded + of_levels[f->dim] * 12 * m * m * couplings * owned);
     else add (g, PG_BYTES_MATRIX, coarse_bytes (f, couplings, total, fmax (1, total / owned)));
     if (!off && f->is.dynamic && !f->method->shape_functions)

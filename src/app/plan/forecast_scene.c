@@ -113,7 +113,7 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
     f->count.summed = f->method->shape_functions && integration && integration->consistent;
     f->is.breaks = pg_scene_given (scene, "failure")
                    && !is (pg_scene_text (scene, "failure.criterion"), "none");
-    f->count.fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* and the coefficients d */
+    f->count.fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* 1 for the coefficients d */
     f->is.pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
     f->is.irregular = pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")
                    || pg_scene_number (scene, "perturb.amount") > 0;

@@ -19,7 +19,7 @@ typedef struct {
     const pg_lattice *l;
     int     size[3];                                   /* sites per axis */
     size_t  nsite, ncell;
-    unsigned char *site;                               /* 1: a point */
+    unsigned char *site;                               /* 1: a point stands there */
     stencil node, *gauss;  size_t ngauss;
     /* largest step between two nodes of a pair; 2 span + 1 */
     int     span[3], wide[3];

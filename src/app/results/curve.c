@@ -146,7 +146,7 @@ done:
     return status;
 }
 
-/* ---- what it says -------------------------------------------------------------------------------------- */
+/* ---- peak and stiffness -------------------------------------------------------------------------------- */
 /* 1 if nothing loads the body at the start, so that the curve begins at the origin. A velocity has not moved
  * anything then. */
 static int from_rest (const pg_problem *p)
@@ -349,7 +349,7 @@ int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
     return out[0] != 0;
 }
 
-/* ---- its picture --------------------------------------------------------------------------------------- */
+/* ---- picture of the curve ------------------------------------------------------------------------------ */
 /* Draws the curve, from the origin if the body starts unloaded, and marks the peak. With event
  * stepping the line is the envelope; it may be drawn along lines through the origin only if
  * all loads are proportional. */
@@ -371,7 +371,7 @@ pg_status pg_result_curve_picture (pg_result *r)
                          rest && pg_problem_proportional (r->problem), x,
                          y, &peak);
     else {
-        n = (size_t) rest;                             /* the origin */
+        n = (size_t) rest;                             /* 1: the line begins at the origin */
         for (size_t i = 0; i < r->curve.npoint; i++) x[n] = r->curve.x[i], y[n++] = r->curve.y[i];
     }
     pg_picture_quantity (r->curve.peak.force, "N", force, sizeof force);

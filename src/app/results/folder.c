@@ -197,7 +197,7 @@ done:
     return status;
 }
 
-/* ---- what another run left ----------------------------------------------------------------------------- */
+/* ---- files of earlier runs ----------------------------------------------------------------------------- */
 /* 1 if the folder has an entry of that name. */
 static int there_is (const char *folder, const char *name)
 {
@@ -238,7 +238,7 @@ static pg_status must_not_be_the_users (const char *folder, const pg_scene *scen
     }
     if (strstr (present, copied)) goto done;
     snprintf (path, sizeof path, "%s/report.json", folder);
-    PG_TRY (read_text (path, &report));  /* runs before this version left no mark, but a report */
+    PG_TRY (read_text (path, &report));  /* earlier versions left no mark in it, but a report.json */
     if (!report)
         PG_FAIL (
             PG_E_USAGE,

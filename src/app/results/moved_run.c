@@ -17,7 +17,7 @@ void parts_path (char *out, size_t size, const char *folder, int part, int fresh
     else snprintf (out, size, "%s/ranks/%d/checkpoint.nc%s", folder, part, end);
 }
 
-/* ---- who wrote it -------------------------------------------------------------------------------------- */
+/* ---- which processes wrote the checkpoint -------------------------------------------------------------- */
 /* 1: a checkpoint of `count` processes that divide the body or not is one of the present processes. */
 static int is_own (int count, int divided)
 {

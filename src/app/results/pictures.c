@@ -101,7 +101,7 @@ static pg_status one_picture (pg_result *r, const pg_state *state, const result_
     style.select = v->by_damage ? damage : v->limited ? one : NULL;
     pg_outline outline = result_outline (r);
     style.outline = outline.body || outline.mesh ? &outline : NULL, style.damage = damage;
-    int whole = p->part.mesh.n > 0;                        /* elements would hide a crack */
+    int whole = p->part.mesh.n > 0;                        /* no damage: elements hide no crack */
     for (size_t i = 0; whole && i < p->cloud.n; i++) whole = !(damage[i] > 0);
     PG_TRY (pg_picture_body (path, whole ? &p->part : NULL, &p->cloud, one, &style));
 done:

@@ -164,7 +164,7 @@ typedef struct {
 typedef struct {
     pg_table  *history, *events;
     pg_table  *contact;                                /* contact.csv, or NULL */
-    size_t    ncolumn;                                 /* of history.csv */
+    size_t    ncolumn;                                 /* columns of history.csv */
     double   *row;                                     /* scratch space: one row of it (ncolumn) */
 } result_tables;
 /* The error estimate: 1: it is asked for; 1: it was made; its values. */
@@ -259,7 +259,7 @@ void      pg_result_averages_check (const pg_scene *scene, const pg_problem *pro
 pg_status pg_result_averages_read  (pg_result *r, const pg_scene *scene);
 void      pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size);
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row,
-                               double *work /* 6 a point */);
+                               double *work /* 6 values a point */);
 /* Growing cracks, and output.stress_intensity (grown_cracks.c). In this order: check of the scene, reading;
  * columns of history.csv and their values; the tables cracks.csv and tips.csv or fronts.csv, created or cut
  * to the rows of `from`, and their rows, written after that of history.csv; report.json; dissipated energy
@@ -287,11 +287,11 @@ pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *pro
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);
 void      pg_result_tips_free      (pg_result *r);
 pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
-                           double *work /* 6 a point */);
+                           double *work /* 6 values a point */);
 pg_status pg_result_tips_keep      (pg_result *r, size_t rows, const pg_keeper *keeper);
 /* Speed of Rayleigh waves in the fastest material, m/s; 0 if no material has a density. */
 double    pg_result_tips_rayleigh  (const pg_result *r);
-/* The summary of crack i; speed: m/s at every row (tips values), or NULL. */
+/* Computes the summary of crack i; speed: m/s at every row (tips values), or NULL. */
 void      pg_result_tips_run       (const pg_result *r, size_t i, result_tip_run *out, double *speed);
 /* Writes tip.png and, in dynamic runs, tip_speed.png. */
 pg_status pg_result_tips_pictures  (pg_result *r);

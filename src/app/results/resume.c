@@ -287,7 +287,7 @@ int pg_result_due (const pg_result *r)
     return p->interval > 0 && passed >= p->interval && passed >= 10 * p->checkpoint_cost;
 }
 
-/* ---- going on ------------------------------------------------------------------------------------------ */
+/* ---- resuming ------------------------------------------------------------------------------------------ */
 void resumed_marks (pg_result *r, const result_marks *at)
 {
     result_fields *f = &r->fields;

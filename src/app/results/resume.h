@@ -52,7 +52,7 @@ typedef struct {
     /* For each point held here: the part that owned it, its index among the points of that part, and its
      * index among those that the part owned. */
     int     *file;  size_t *at, *among;
-    parts_number *number[PG_BOND_SETS];  size_t n[PG_BOND_SETS];       /* ascending */
+    parts_number *number[PG_BOND_SETS];  size_t n[PG_BOND_SETS];       /* sorted by number */
 } parts_kept;
 
 /* Writes the points of a checkpoint and their bonds; at: the state when the last step was complete. */

@@ -140,7 +140,7 @@ done:
     return status;
 }
 
-/* ---- all of it ----------------------------------------------------------------------------------------- */
+/* ---- the whole system ---------------------------------------------------------------------------------- */
 /* Takes the load vector f and the prescribed values g at load factor or time t. */
 static pg_status take_vectors (pg_equations *e, const pg_force_type *force, void *self, double t)
 {

@@ -138,7 +138,7 @@ done:
     return status;
 }
 
-/* ---- changes from outside ------------------------------------------------------------------------------ */
+/* ---- changes by the caller ----------------------------------------------------------------------------- */
 pg_status pg_session_set (pg_session *s, const char *what, size_t n, const double *value)
 {
     pg_status status = PG_OK;

@@ -19,7 +19,7 @@ typedef struct {
         trouble[512];
     /* Element and number of elements of a mesh, for CalculiX and for scenes that take one; else "". */
     char   element[16];  long size;
-    /* "mesh.file=..." for such a scene, once the mesh is made. */
+    /* The override "mesh.file=..." for scenes that take a mesh, once it is made. */
     char   mesh[4300];
     size_t nset;
     /* The numbers of the repeat with the least CPU seconds. */

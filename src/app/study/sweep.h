@@ -48,7 +48,7 @@ typedef struct {
     double           *warnings;
 } sweep;
 
-/* Cuts "key=a,b,c" into a key with its values (sweep_keys.c). PG_E_USAGE. */
+/* Cuts "key=a,b,c" into a key with its values (sweep_keys.c). PG_E_USAGE: it cannot be read so. */
 pg_status pg_sweep_key_read  (sweep_key *out, const char *set);
 void      pg_sweep_key_clear (sweep_key *key);
 /* Chooses the columns that are asked for, or the default ones (sweep_table.c). PG_E_USAGE: there is no such

@@ -19,7 +19,7 @@ typedef struct {
     const char *field, *part, *component, *out, *look;
     /* "stress" of "stress.yy". */
     char   name[128];
-    /* Meshes: metres in a unit of the file; 0: not given. */
+    /* Length unit of a mesh file, m; 0: not given. */
     double length;
     char   result[PLOT_PATH];
     /* Steps to draw; -1 is the last one, until count_steps has resolved it. */

@@ -120,7 +120,7 @@ done:
     return status;
 }
 
-/* ---- what the scene says ------------------------------------------------------------------------------- */
+/* ---- properties of a run, from its scene --------------------------------------------------------------- */
 /* 1 if the name of the column is in "a|b|c". */
 static int is_one_of (const char *column, const char *list)
 {

@@ -252,7 +252,7 @@ static void name_stage (const plot_request *q, const source *s, int step, char *
                *stepping = s->scene ? pg_scene_text (s->scene, "solver.stepping") : "";
     double time = s->time[step], last = s->time[s->nstep - 1], factor;
     long events;
-    /* load factors end at 1 */
+    /* load factors end at 1: larger times are numbers of steps */
     int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);
     if (*kind && !pg_solver_is (kind, PG_SOLVER_QUASI_STATIC))
         pg_picture_time (time, text + snprintf (text, size, "time "), size - 5);

@@ -13,23 +13,23 @@ int pg_cli_run   (int argc, char **argv);
 /* pg_cli_run as one of several ranks (perigal/ranks.h). *together 0: this rank has failed in a way that the
  * other ranks cannot know of, so that they would wait for it. */
 int pg_cli_run_ranks (int argc, char **argv, int *together);
-/* SCENE [--json] [--solve] [--spectrum] ...: what is wrong with a scene, or what it amounts to
+/* SCENE [--json] [--solve] [--spectrum] ...: reports the faults of a scene, or what a run of it would do
  * (check.c). */
 int pg_cli_check (int argc, char **argv);
 /* DIR [REFERENCE] ...: a result compared with a reference (compare.c). */
 int pg_cli_compare (int argc, char **argv);
-/* KIND [-o DIR]: a scene to start from (new.c). */
+/* KIND [-o DIR]: writes a scene to start from (new.c). */
 int pg_cli_new   (int argc, char **argv);
-/* SCENE [-o PICTURE] [--csv FILE]: the cracks of a scene alone (cracks.c). */
+/* SCENE [-o PICTURE] [--csv FILE]: describes and draws the cracks of a scene, without a run (cracks.c). */
 int pg_cli_cracks (int argc, char **argv);
-/* The entries of all catalogues; the keys of the scene (inquiry.c). */
+/* list: prints the entries of all catalogues; help: prints the keys of the scene (inquiry.c). */
 int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
-/* Error and cost of methods and sizes (bench.c). */
+/* Measures error and cost of methods and sizes (bench.c). */
 int pg_cli_bench (int argc, char **argv);
-/* SCENE --set KEY=A,B,C ...: all combinations of values (sweep.c). */
+/* SCENE --set KEY=A,B,C ...: runs all combinations of values (sweep.c). */
 int pg_cli_sweep (int argc, char **argv);
-/* Orders of convergence (converge.c). */
+/* Finds orders of convergence (converge.c). */
 int pg_cli_converge (int argc, char **argv);
 /* One measurement, which bench and converge start in a new process (trial.c). */
 int pg_cli_trial (int argc, char **argv);

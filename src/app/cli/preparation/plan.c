@@ -111,7 +111,7 @@ void plan_settled (const pg_solver *solver)
     fflush (stdout);
 }
 
-/* ---- at length ----------------------------------------------------------------------------------------- */
+/* ---- the long form ------------------------------------------------------------------------------------- */
 /* Largest frequency, rad/s: measured by the solver or by --solve; else an estimate, 2 c_p / h inside the
  * body, and where supports of the stiffness beta E / h stiffen boundary points omega^2 = 2 beta E / (rho
  * h^2). Zero without densities. */

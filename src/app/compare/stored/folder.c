@@ -129,9 +129,9 @@ static size_t cut_settings (char *text, char **set, const char **from)
     return n;
 }
 
-/* The copy is parsed as if it stood at the place of the original, because relative file names
- * in the scene refer to that folder: noted in the copy, or in older folders in report.json;
- * the copy itself is the last resort. */
+/* Loads the scene of a result folder. The copy is parsed as if it stood in the folder of the original, to
+ * which relative file names in it refer: noted in the copy, or in older folders in report.json; the copy
+ * itself is the last resort. */
 pg_status pg_stored_scene (pg_scene **out, const char *folder)
 {
     pg_status status = PG_OK;
