@@ -5,7 +5,7 @@
 #include "app/cli/preparation/cli.h"
 #include <string.h>
 
-/* Returns the line of description of a catalogue entry; one function per catalogue follows. */
+/* The line of description of a catalogue entry; one function per catalogue follows. */
 typedef const char *(*summary_of) (const char *name);
 /* Returns the line of description of a force, "" for an unknown name. The functions after it do so for the
  * other catalogues. */

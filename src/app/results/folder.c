@@ -19,7 +19,7 @@
 static const char copied[] = "\n# copied by perigal run from ";
 
 /* ---- one run at a time --------------------------------------------------------------------------------- */
-/* Returns the process that the lock names, and its host; 0 if it names none. */
+/* The process that the lock names, and its host; 0 if it names none. */
 static long owner_of (int file, char host[128])
 {
     char text[200] = "";

@@ -274,7 +274,7 @@ pg_status pg_result_paths_write    (pg_result *r, const pg_state *state, const p
 void      pg_result_paths_json     (pg_json *j, const pg_result *r, const pg_state *state);
 double    pg_result_paths_ratio    (const pg_result *r);
 void      pg_result_paths_close    (pg_result *r);
-/* Returns the faces of all cracks that have grown, to be freed with pg_free (crack_lines.c). */
+/* The faces of all cracks that have grown, to be freed with pg_free (crack_lines.c). */
 pg_status pg_result_paths_faces    (const pg_result *r, const pg_state *state, size_t *n,
                                     pg_crack_face **face);
 /* contact.csv (contact_rows.c): creates it or cuts it to the rows of `from`; writes its rows. */

@@ -415,8 +415,8 @@ done:
     return status;
 }
 
-/* Writes a sentence such as "right: 4.95 to 15.95 mm, from 6.20 us to the end, 1520 m/s on average, 1870 m/s
- * at most (at 9.35 mm, 9.52 us): 0.55 and 0.68 of c_R". */
+/* A sentence such as "right: 4.95 to 15.95 mm, from 6.20 us to the end, 1520 m/s on average,
+ * 1870 m/s at most (at 9.35 mm, 9.52 us): 0.55 and 0.68 of c_R". */
 int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 {
     const result_tips *t = &r->tips;

@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* Frees a sum over bonds, even if it was built in part only; *sum may be NULL. */
+/* Frees a sum over bonds, also one that was made in part only; NULL is allowed. */
 void pg_bond_sum_free (pg_bond_sum **sum)
 {
     pg_bond_sum *s = *sum;

@@ -74,7 +74,7 @@ done:
     return status;
 }
 
-/* Frees a session, even if it was built in part only; *session may be NULL. */
+/* Frees a session, also one that was made in part only; NULL is allowed. */
 void pg_session_close (pg_session **session)
 {
     pg_session *s = *session;

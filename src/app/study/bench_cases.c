@@ -161,8 +161,8 @@ done:
     return status;
 }
 
-/* Returns the word of a list in combination k; lists count like the digits of a number, `of` being the weight
- * of this one. */
+/* The word of a list in combination k; lists count like the digits of a number, `of` being the
+ * weight of this one. */
 static const char *word_of (const pg_word_list *w, size_t k, size_t of)
 {
     return w->n ? w->word[k / of % w->n] : NULL;

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Returns the problem with the smaller spacing, at whose points both sides are written. */
+/* The problem with the smaller spacing, at whose points both sides are written. */
 static const pg_problem *finer (const pg_comparison *c)
 {
     return c->other && c->other->problem->cloud.h < c->own->problem->cloud.h ? c->other->problem

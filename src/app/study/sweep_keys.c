@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the end of the value that begins at s: a comma or the end of the text, outside of brackets and
- * quotes. */
+/* The end of the value that begins at s: a comma or the end of the text, outside of brackets and quotes. */
 static const char *end_of_value (const char *s)
 {
     int depth = 0;

@@ -233,7 +233,7 @@ done:
     return status;
 }
 
-/* Frees everything, even if the result was opened in part only. */
+/* Frees everything; may be called for a result that was only half opened. */
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);

@@ -25,7 +25,7 @@ int pg_plot_is_file (const char *path)
     return stat (path, &about) == 0 && S_ISREG (about.st_mode);
 }
 
-/* Returns the field of that name, or NULL if the file has none. */
+/* The field of that name, or NULL if the file has none. */
 static const pg_mesh_field *find_field (const fem *f, const char *name)
 {
     for (size_t k = 0; k < f->nfield; k++) if (strcmp (f->field[k].name, name) == 0) return &f->field[k];
