@@ -123,8 +123,8 @@ const char *pg_forecast_item (int item)
  * (test/app/results/test_memory.c). */
 
 /* Lattice points with alike neighbourhoods share rows of shape functions
- * (mechanics/galerkin/weak_form/galerkin_rows.c): bonds of different rows at most, as counted on blocks and
- * bodies with holes, and bonds of the part that is evaluated at a time. */
+ * (mechanics/galerkin/weak_form/galerkin_rows.c): largest number of different rows, as counted on blocks and
+ * bodies with holes, and number of bonds of the part that is evaluated at a time. */
 static const double most_different = 4000, part = 5e5;
 
 /* Bytes of shape functions and their derivatives, strains and stresses at all points (galerkin), or of the

@@ -130,9 +130,9 @@ done:
     return status;
 }
 
-/* The text of the scene, followed by comment lines with its origin, the files that it names
- * with their hashes, and the --set options. pg_stored_scene takes these lines off again. Paths
- * are absolute, so that the folder may be moved. */
+/* Makes the text of scene.yaml: that of the scene, followed by comment lines with its origin, the files that
+ * it names with their hashes, and the --set options. pg_stored_scene takes these lines off again. Paths are
+ * absolute, so that the folder may be moved. */
 static pg_status copy_text (char **text, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -69,8 +69,8 @@ static int has_beams (const pg_bond_choice *c, const pg_kernel *kernel, double *
 }
 
 /* Corrections of the constants of theory by sums over bonds: factor of the micromodulus; energies of a
- * straight crack over those of theory (bond-based, state-based); the same for crack growth; sums of
- * micropolar bonds. */
+ * straight crack over those of theory (bond-based, state-based); energy of a crack that grows bond by bond
+ * over that of a straight cut, NAN if unknown; sums of micropolar bonds. */
 typedef struct {
     double calibration, toughness, state_toughness, growth;
     pg_beam_sums beams;

@@ -212,7 +212,7 @@ typedef struct {
     char   failure[8192];
 } series;
 
-/* Ends the series for a failure, of which the first counts: the other runs are asked to stop. */
+/* Ends the series after a failure; the first one is reported, and the other runs are asked to stop. */
 static void give_up (series *s, pg_status status)
 {
     if (s->status != PG_OK) return;

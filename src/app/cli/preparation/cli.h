@@ -60,8 +60,8 @@ void progress_end   (progress *p);
  * (stop_signals.c). */
 void run_listen        (void);
 int  run_asked_to_stop (void);
-/* Call this when the result folder exists: from then on a signal must leave it in order, before it ends the
- * process at once. */
+/* Called when the result folder exists: from then on a signal must leave the folder in order; earlier ones
+ * end the process at once. */
 void run_opens         (void);
 /* 1: a signal that comes now belongs to the request that came at time `since` (CLOCK_MONOTONIC). */
 int  command_same_request (const struct timespec *since);
