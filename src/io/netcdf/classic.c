@@ -9,19 +9,20 @@
 #include "file.h"
 #include <string.h>
 
-/* Tags of the lists. */
+/* Tags that begin the three kinds of lists in the header. */
 enum { DIMENSION = 10, VARIABLE = 11, ATTRIBUTE = 12 };
-/* The header as it is read; at: next byte; broken: 1 once something does not fit. */
+/* The header while it is parsed. at: offset of the next byte; broken: 1 once the header proves invalid. */
 typedef struct { pg_netcdf *f; size_t at; int broken; } walker;
 
-/* Types from 7 on exist in version 5 only. */
+/* The types from 7 on (unsigned and 64-bit integers) exist in version 5 only. */
 size_t nc_size_of (int type)
 {
     static const unsigned char size[] = { 0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8 };
     return type > 0 && type < (int) sizeof size ? size[type] : 0;
 }
 
-/* A whole number of that many bytes, high byte first; broken: the file ends before. */
+/* Reads an unsigned integer of `bytes` bytes, high byte first; w->broken is set where the file is too
+ * short. */
 static uint64_t whole (walker *w, size_t bytes)
 {
     uint64_t value = 0;
@@ -31,10 +32,11 @@ static uint64_t whole (walker *w, size_t bytes)
     return value;
 }
 
-/* A number as wide as counts are in this version. */
+/* Reads a count or a length: 8 bytes in version 5, otherwise 4. */
 static uint64_t number (walker *w) { return whole (w, w->f->version == 5 ? 8 : 4); }
 
-/* A count of things of at least `least` bytes each, which the rest of the file must hold. */
+/* Reads a count of items of at least `least` bytes each; w->broken if the rest of the file cannot hold
+ * them. */
 static size_t count (walker *w, size_t least)
 {
     uint64_t n = number (w);
@@ -50,7 +52,7 @@ static void skip (walker *w, uint64_t bytes)
     else w->at += padded;
 }
 
-/* A name: length and letters. */
+/* Reads a name: its length and its letters. */
 static void name (walker *w, char out[PG_NC_NAME + 1])
 {
     size_t n = count (w, 1);
@@ -63,7 +65,7 @@ static void name (walker *w, char out[PG_NC_NAME + 1])
     out[n] = 0;
 }
 
-/* A type of values. */
+/* Reads the type of the values of a variable or an attribute: 1 to 6, in version 5 up to 11. */
 static int type (walker *w)
 {
     uint64_t t = whole (w, 4);
@@ -71,7 +73,8 @@ static int type (walker *w)
     return w->broken ? 1 : (int) t;
 }
 
-/* The head of a list: its tag and count, or zeros where there is none. least: bytes of an item, at least. */
+/* Reads the head of a list, its tag and its number of items (both 0: no list), and returns that number.
+ * least: smallest number of bytes of an item. */
 static size_t list (walker *w, uint64_t tag, size_t least)
 {
     uint64_t got = whole (w, 4);
@@ -80,7 +83,7 @@ static size_t list (walker *w, uint64_t tag, size_t least)
     return w->broken ? 0 : n;
 }
 
-/* The attributes of a variable, -1: of the file. Their values stay in the header. */
+/* Reads the attributes of a variable (-1: of the file); of their values only the offsets are stored. */
 static pg_status attributes (walker *w, int variable)
 {
     pg_status status = PG_OK;
@@ -100,7 +103,7 @@ done:
     return status;
 }
 
-/* The dimensions; one of length 0 is that of the records. */
+/* Reads the list of dimensions; one of length 0 is the record dimension. */
 static pg_status dimensions (walker *w)
 {
     pg_status status = PG_OK;
@@ -118,8 +121,8 @@ done:
     return status;
 }
 
-/* The dimensions of a variable, of which `more` follow: the product of their lengths. Those of 0 are the
- * records, which may only be first. Fails where the number of bytes would not fit into 48 bits. */
+/* Reads the `more` dimension numbers of a variable; v->per becomes the product of their lengths without the
+ * record dimension (length 0), which may only be first. w->broken if that product exceeds 2^48. */
 static void extents (walker *w, nc_variable *v, size_t more)
 {
     v->per = 1;
@@ -136,8 +139,8 @@ static void extents (walker *w, nc_variable *v, size_t more)
     }
 }
 
-/* One variable: name, dimensions, attributes, type, size (which is not needed: it follows from the
- * dimensions, and has no room for large ones), offset. */
+/* Reads one variable: name, dimensions, attributes, type, size (ignored: it follows from the dimensions, and
+ * its field is too narrow for large variables), offset. */
 static pg_status variable (walker *w)
 {
     pg_status status = PG_OK;
@@ -158,8 +161,8 @@ done:
     return status;
 }
 
-/* Bytes from record to record: the values of all variables with records, each padded to a multiple of four,
- * except for a single one, which is not padded. Then the number of records in the lengths. */
+/* Computes f->stride, the bytes of a record: the values of all variables with records, each padded to a
+ * multiple of four unless it is the only one. Then stores the number of records as a dimension's length. */
 static void settle_records (walker *w)
 {
     pg_netcdf *f = w->f;
@@ -173,7 +176,8 @@ static void settle_records (walker *w)
         with++;
     }
     if (with == 1) f->stride = bare;
-    /* More records than bytes: the count is wrong. All ones: a writer that did not know it. */
+    /* A record count of all ones means that the writer did not know it; it then follows from the file
+     * size. */
     uint64_t unknown = f->version == 5 ? ~(uint64_t) 0 : 0xffffffffu;
     if (f->records == unknown) f->records = f->stride ? (f->size - w->at) / f->stride : 0;
     if (f->records > f->size) w->broken = 1;
@@ -182,7 +186,7 @@ static void settle_records (walker *w)
     for (size_t k = 0; k < f->nvar && !w->broken; k++) {
         nc_variable *v = &f->var[k];
         v->about.n = v->per * (v->record ? (size_t) f->records : 1);
-        /* values that the whole file has no room for */
+        /* the values of one record, or all, would need more bytes than the file has */
         if (v->about.n > 0 && v->per > f->size / nc_size_of (v->about.type)) w->broken = 1;
         if (!v->record) continue;
         v->about.first = (size_t) f->records;

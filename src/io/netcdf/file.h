@@ -7,15 +7,16 @@
 
 /* A dimension. */
 typedef struct { char name[PG_NC_NAME + 1]; size_t length; } nc_dimension;
-/* A variable. per: values of one record, or all where it has no records; begin: first byte (classic);
- * record: 1 if its first dimension is that of the records (classic). */
+/* A variable. per: number of values in one record, or of all values if it has no record dimension; classic
+ * files only: begin: offset of its first byte; record: 1 if its first dimension is the record dimension. */
 typedef struct { pg_netcdf_variable about; size_t per; uint64_t begin; int record; } nc_variable;
-/* An attribute of a variable (-1: of the file): its n values lie at byte `at` of the header (classic). */
+/* An attribute. variable: index of the variable that has it, -1: the file; its n values begin at byte `at` of
+ * the file (classic files only). */
 typedef struct { int variable, type; char name[PG_NC_NAME + 1]; size_t n, at; } nc_attribute;
 
 struct pg_netcdf {
     char  *path;
-    /* The bytes of the file; mapped: 1 if they are a mapping of our own. */
+    /* The bytes of the file; mapped: 1 if pg_netcdf_open has mapped them, so that closing unmaps them. */
     const unsigned char *bytes;
     size_t size;
     int    mapped;
@@ -29,11 +30,12 @@ struct pg_netcdf {
     nc_attribute *att;
 };
 
-/* Bytes of one value of a type, 1 to 11. */
+/* Bytes of one value of a netCDF type, 1 to 11; 0: there is no such type. */
 size_t    nc_size_of (int type);
-/* Fills in what the header says; f->bytes is known. */
+/* Parses the header of a classic file (f->bytes) into the dimensions, variables and attributes of f. */
 pg_status nc_classic_parse (pg_netcdf *f);
-/* Opens the bytes by the netCDF library and asks it for the same; values; end. */
+/* netCDF-4 files, by the netCDF library: open the bytes and list dimensions, variables and attributes; read n
+ * values of a variable from value `first` on; read an attribute (0: failed); close. */
 pg_status nc_library_open  (pg_netcdf *f);
 pg_status nc_library_doubles (const pg_netcdf *f, int variable, size_t first, size_t n, double *value);
 pg_status nc_library_longs   (const pg_netcdf *f, int variable, size_t first, size_t n, long *value);

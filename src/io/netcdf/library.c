@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Functions of the library, as X (name): pointers of the types that its headers declare. */
+/* The library functions in use, as X (name); `call` holds a pointer to each, of the type in netcdf.h. */
 #define CALLS(X) \
     X (nc_open_mem) X (nc_close) X (nc_strerror) X (nc_inq) X (nc_inq_dim) X (nc_inq_var) X (nc_inq_attname) \
     X (nc_inq_att) X (nc_get_vara_double) X (nc_get_vara_long) X (nc_get_vara_text) X (nc_get_att_text) \
@@ -32,7 +32,7 @@ static pg_status load (void)
     return pg_library_load (&netcdf);
 }
 
-/* Fails with the library's own words where a call of it fails. */
+/* PG_FAIL with the library's error message if the library call `what` returns an error code. */
 #define NC_TRY(f, what) \
     do { \
         int rc_ = (what); \
@@ -41,7 +41,7 @@ static pg_status load (void)
                      call.nc_strerror (rc_)); \
     } while (0)
 
-/* Attributes of a variable, -1: of the file. Those of types that classic files lack are left out. */
+/* Lists the n attributes of a variable (-1: of the file), without those of types that classic files lack. */
 static pg_status list_attributes (pg_netcdf *f, int variable, int n)
 {
     pg_status status = PG_OK;
@@ -59,7 +59,7 @@ done:
     return status;
 }
 
-/* One variable. Its number in the list is the library's. */
+/* Lists variable k; its index in f->var is its number in the library. */
 static pg_status list_variable (pg_netcdf *f, int k)
 {
     pg_status status = PG_OK;
@@ -88,7 +88,7 @@ pg_status nc_library_open (pg_netcdf *f)
     pg_status status = PG_OK;
     int ndim, nvar, natt, unlimited;
     PG_TRY (load ());
-    /* the library does not change the bytes, though its declaration does not say so */
+    /* the cast removes const: the library takes a non-const pointer but does not change the bytes */
     int rc = call.nc_open_mem (f->path, NC_NOWRITE, f->size, (void *) (uintptr_t) f->bytes, &f->id);
     if (rc != NC_NOERR) f->id = -1;
     NC_TRY (f, rc);
@@ -110,8 +110,8 @@ done:
 
 void nc_library_close (pg_netcdf *f) { call.nc_close (f->id); }
 
-/* A range of values as the library wants it, first index and count along each dimension: all values, or a
- * part of one row along the last dimension; other ranges are not asked for. 0: the range is none of these. */
+/* Converts values first .. first + n - 1 to the start index and count along each dimension that the library
+ * takes. The range must be all values or lie in one row along the last dimension; returns 0 otherwise. */
 static int range (const nc_variable *v, const pg_netcdf *f, int variable, size_t first, size_t n,
                   size_t *start, size_t *count)
 {
@@ -127,7 +127,7 @@ static int range (const nc_variable *v, const pg_netcdf *f, int variable, size_t
     return 1;
 }
 
-/* Reads such a range by one of the three functions. */
+/* Body of a function that reads n values of a variable from value `first` on, by a library function. */
 #define READ(function) \
     pg_status status = PG_OK; \
     size_t start[NC_MAX_VAR_DIMS] = { 0 }, count[NC_MAX_VAR_DIMS] = { 0 }; \

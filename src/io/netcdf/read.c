@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Opens netCDF files, finds what they hold by name and converts their values. A file is mapped, not read: of
- * a result of gigabytes only the pages that are asked for come from the disk. */
+ * Opens netCDF files, finds dimensions, variables and attributes by name and converts their values. A file is
+ * mapped, not read: of a result of gigabytes only the pages that are used come from the disk. */
 #include "file.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -22,7 +22,7 @@ static int is_hdf5 (const unsigned char *bytes, size_t size)
     return size >= 8 && memcmp (bytes, "\x89HDF\r\n\x1a\n", 8) == 0;
 }
 
-/* Fills in a file whose bytes are known. */
+/* Parses a file whose bytes are in memory, as classic netCDF or netCDF-4 by its signature. */
 static pg_status recognise (pg_netcdf *f)
 {
     if (is_classic (f->bytes, f->size)) return nc_classic_parse (f);
@@ -75,7 +75,7 @@ void pg_netcdf_close (pg_netcdf **file)
     pg_netcdf *f = *file;
     if (!f) return;
     if (f->id >= 0) nc_library_close (f);
-    /* a mapping is not written to; its address is not constant for munmap only */
+    /* the cast removes const: munmap takes a non-const pointer */
     if (f->mapped) munmap ((void *) (uintptr_t) f->bytes, f->size);
     pg_free (f->dim), pg_free (f->var), pg_free (f->att), pg_free (f->path);
     pg_free (f);
@@ -158,7 +158,7 @@ static int long_at (const unsigned char *at, int type, long *value)
     }
 }
 
-/* Each value is turned round where it lies. */
+/* Reverses the bytes of each of n values of 4 or 8 bytes in place if the machine is little-endian. */
 void pg_netcdf_swap (void *value, size_t n, size_t size)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -179,7 +179,8 @@ void pg_netcdf_swap (void *value, size_t n, size_t size)
 #endif
 }
 
-/* Converts n values of a file that lie in a row; 0: one of them does not fit. */
+/* Converts n contiguous values of a file from a netCDF type into the array `to`; 0: one of them does not
+ * fit. */
 typedef int converting (const unsigned char *at, int type, size_t n, void *to);
 
 static int to_doubles (const unsigned char *at, int type, size_t n, void *to)
@@ -208,15 +209,15 @@ static int to_chars (const unsigned char *at, int type, size_t n, void *to)
     return 1;
 }
 
-/* The place of value k of a classic variable, and how many values lie there in a row; PG_E_FILE: the file
- * ends before the next `n` of them. */
+/* Finds the address *at of value k of a classic variable and the number *row <= n of values that are
+ * contiguous from there on (the rest of a record). PG_E_FILE: the file ends before them. */
 static pg_status place (const pg_netcdf *f, const nc_variable *v, size_t k, size_t n,
                         const unsigned char **at, size_t *row)
 {
     pg_status status = PG_OK;
     size_t size = nc_size_of (v->about.type), record = v->record ? k / v->per : 0, in = k - record * v->per;
     *row = v->per - in < n ? v->per - in : n;
-    /* No product can overflow: records and strides are below the size of the file or checked by it. */
+    /* record * stride cannot overflow: it is compared with the size of the file before it is computed. */
     uint64_t from = v->begin + in * size;
     if (record > 0 && f->stride > (f->size - 1) / record) from = f->size;
     else from += record * f->stride;
@@ -228,7 +229,8 @@ done:
     return status;
 }
 
-/* PG_E_FILE unless the variable has these values and they are of the kind. */
+/* PG_E_FILE unless the variable has values first .. first + n - 1, and they are text or not as `text`
+ * says. */
 static pg_status check_range (const pg_netcdf *f, int variable, size_t first, size_t n, int text)
 {
     pg_status status = PG_OK;
@@ -242,7 +244,8 @@ done:
     return status;
 }
 
-/* Values of a classic file whose range has been checked, each of `bytes` bytes once converted. */
+/* Reads n values of a classic variable from value `first` on by the converter to_those, which makes `bytes`
+ * bytes of each. The range has been checked. */
 static pg_status convert (const pg_netcdf *file, int variable, size_t first, size_t n, converting *to_those,
                           size_t bytes, void *value)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc: what a run must remember in order to continue with the same bits. Each name
- * that the keeper is given becomes one variable of a netCDF file in the CDF-5 variant of the
- * classic format (doubles, 64-bit integers, bytes).
+ * checkpoint.nc: what a run must remember in order to continue with the same bits. Each named
+ * array that is passed to the keeper (pg_keeper, base.h) becomes one variable of a netCDF file in
+ * the CDF-5 variant of the classic format (doubles, 64-bit integers, bytes).
  *
  * The last variable, `checksum`, is a 64-bit FNV-1a hash over the names, types, lengths and
  * values of all others. It is compared before any value is used, and tells a whole file from
@@ -14,11 +14,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a checkpoint whose sum is right, but whose pieces are others, must be. */
+/* Message for a checkpoint whose checksum is right but whose variables are not those expected. */
 #define OTHER_VERSION "another version of the program wrote it, and only that one can continue the run"
 
-/* A checkpoint that is being written (to) or read (from, and then reading of the keeper is 1); defining: this
- * visit defines variables and writes nothing yet; sum: the hash so far. */
+/* A checkpoint that is being written (to) or read (from; keeper.reading is then 1). defining: 1 during the
+ * first pass, which defines the variables and writes no values; sum: the checksum so far. */
 struct pg_checkpoint {
     char          *path;
     netcdf_writer *to;
@@ -64,7 +64,7 @@ done:
     return status;
 }
 
-/* Reads values of a variable as they are. */
+/* Reads n values of a variable from value `first` on, in memory as in the file: double, long or char. */
 static pg_status get (const checkpoint *c, int var, int type, size_t first, size_t n, void *value)
 {
     switch (type) {
@@ -74,9 +74,9 @@ static pg_status get (const checkpoint *c, int var, int type, size_t first, size
     }
 }
 
-/* One piece of the checkpoint: defines it, writes it or reads it, depending on the visit.
- * While writing, the sum grows with each piece in its order; while reading it has been
- * compared before. Empty arrays are left out, because a dimension of length 0 would mean
+/* Defines, writes or reads one named array of the checkpoint, depending on the pass. While
+ * writing, the checksum grows with each array in its order; while reading it has been compared
+ * before. Empty arrays are left out, because a dimension of length 0 would mean
  * "unlimited" to netCDF. */
 static pg_status keep (checkpoint *c, const char *name, size_t n, int type, void *value)
 {
@@ -160,7 +160,7 @@ done:
     return status;
 }
 
-/* One visit of everything, which starts the sum anew; this becomes the last variable. */
+/* One pass over all arrays: calls `walk` with a new checksum, which becomes the last variable. */
 static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;

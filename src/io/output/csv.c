@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables read back: CSV by RFC 4180, a header of names and rows of numbers. The text is cut in place:
+ * Reads CSV tables (RFC 4180): a header of names and rows of numbers. The text is cut in place:
  * quotes are taken off the cells, and each cell ends in a zero byte where its comma was. */
 #include "perigal/output.h"
 #include <math.h>
@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The cell at *at, cut out of the text, which is stepped over. Returns what ended it: ',' when another
- * cell of the row follows, '\n' at the end of the row, 0 at the end of the text. */
+/* Cuts the cell at *at out of the text and moves *at behind it. Returns the character that ended it: ','
+ * when another cell of the row follows, '\n' at the end of the row, 0 at the end of the text. */
 static char cut_cell (char **at, char **cell)
 {
     char *from = *at, *to = from;
@@ -30,7 +30,7 @@ static char cut_cell (char **at, char **cell)
     return end;
 }
 
-/* Names of the columns, from the first row of the text at *at. */
+/* Reads the names of the columns from the first row of the text at *at. */
 static pg_status read_header (pg_csv *csv, char **at)
 {
     pg_status status = PG_OK;
@@ -45,8 +45,8 @@ done:
     return status;
 }
 
-/* The rows below the header; empty lines are skipped. Missing cells and words become NAN, and
- * cells beyond the header are dropped, so that every row has ncolumn values. */
+/* Reads the rows below the header; empty lines are skipped. Missing cells and words become NAN,
+ * and cells beyond the header are dropped, so that every row has ncolumn values. */
 static pg_status read_rows (pg_csv *csv, char *at)
 {
     pg_status status = PG_OK;

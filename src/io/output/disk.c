@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bytes to the disk by the system's own calls: everything is written, or the call is refused
- * with the reason that the system gives. The buffered functions of C would report a full disk
- * only later, at fclose. */
+ * Writes files by system calls: everything is written, or the call fails with the reason that
+ * the system gives. The buffered functions of C would report a full disk only later, at fclose. */
 #include "disk.h"
 #include <dirent.h>
 #include <errno.h>
@@ -39,7 +38,7 @@ done:
     return status;
 }
 
-/* Used when a file is opened for appending: what lies behind the remembered length goes. */
+/* Called when a file is opened for appending, to drop what was written behind a remembered length. */
 pg_status pg_disk_cut (const char *path, int file, long bytes)
 {
     return ftruncate (file, bytes) == 0 ? PG_OK
@@ -83,7 +82,7 @@ pg_status pg_file_create (FILE **out, const char *path)
     return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
-/* Read in pieces, because the length of a pipe is not known before. */
+/* The file is read in pieces of 64 KiB, because the length of a pipe is not known before. */
 pg_status pg_file_text (char **text, size_t *size, const char *path)
 {
     pg_status status = PG_OK;
@@ -116,7 +115,7 @@ pg_status pg_file_sync (const char *path)
     return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
 }
 
-/* Folders in it are left alone, and links are removed as links. */
+/* Subfolders stay (the folder then stays too), and symbolic links are removed, not their targets. */
 void pg_folder_remove (const char *path)
 {
     char name[4300];
@@ -132,12 +131,12 @@ void pg_folder_remove (const char *path)
     rmdir (path);
 }
 
-/* Of the path of a folder, bytes: files in it, temporary ones and those of its own folders have room in the
- * paths of less than PATH_MAX bytes that the system takes, and messages for a few words about them. */
+/* Longest allowed path of a folder in bytes: leaves room for the names of files in it and in its subfolders
+ * below PATH_MAX, the limit of the system, and for a few words in error messages. */
 enum { LONGEST = 3000 };
 
-/* Goes through the path and makes every folder on the way. A longer one is refused before anything is made,
- * as its files would be cut to names of something else. */
+/* Goes through the path and makes every folder on the way. A path longer than LONGEST is refused before any
+ * folder is made, because paths of files in it would be cut off and name other files. */
 pg_status pg_folder_make (const char *path)
 {
     pg_status status = PG_OK;

@@ -2,10 +2,10 @@
  * Writes result.e so that it can be read at any instant: while the run goes on, after it was
  * killed, and after the disk was full.
  *
- * exodus_layout.c writes the header, the points and the variables without steps under another
- * name, and the file is moved to its place when it is whole. A step is one record behind that,
- * by the published layout of the classic format: one value of
- * time_whole, then n values for each vals_nod_var<k>, each the most significant byte first.
+ * exodus_layout.c writes the header, the points and the variables without steps to PATH.new,
+ * which is renamed to PATH when it is complete. Each step is one record appended to the file, by
+ * the published layout of the classic format: one value of time_whole, then n values for each
+ * vals_nod_var<k>, each the most significant byte first.
  * The values are written first, time_whole next, and last the number of records, 4 or 8 bytes
  * from byte 4 of the file on; readers see the step only then. A step that cannot be written
  * whole is cut off again. */
@@ -28,7 +28,7 @@ struct pg_exodus {
     int     file, dim, wide;
     /* First byte of the steps and bytes of one step. */
     long    begin, record;
-    /* Points, steps written, fields of the caller, components of all fields. */
+    /* Numbers of points, of steps written, of fields of the caller, of components of all fields. */
     size_t  n, step, nfield, nvar;
     /* 1: volume is not among the caller's fields and is written as one more. */
     int     extra;
@@ -193,7 +193,7 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
     f->step = (size_t) steps;
     PG_TRY (count_records (f, f->step));
     PG_TRY (pg_disk_cut (path, f->file, bytes));
-    pg_exodus_drop_pieces (path);                      /* of a run that was killed at its end */
+    pg_exodus_drop_pieces (path);                      /* PATH.new of a run that was killed at its end */
     *out = f;
     f = NULL;
 done:
@@ -201,7 +201,7 @@ done:
     return status;
 }
 
-/* What a checkpoint remembers to cut the file to. */
+/* A checkpoint stores both numbers, so that a restart can cut the file back to these steps. */
 void pg_exodus_size (const pg_exodus *f, long *steps, long *bytes)
 {
     *steps = (long) f->step;
@@ -255,16 +255,16 @@ pg_status pg_exodus_write (pg_exodus *f, double time, const pg_field_view *field
     if (status == PG_OK) f->step++;
     else {
         int cut = ftruncate (f->file, f->begin + (long) f->step * f->record);
-        (void) cut;                                    /* what would stay is behind the records that count */
+        (void) cut;                                    /* if it failed: readers ignore uncounted records */
     }
 done:
     return status;
 }
 
-/* ---- pieces of cracks ------------------------------------------------------------------------------------
- * */
-/* Copies a record: behind the n values of a variable those of the corners of the pieces, taken from their
- * points, and behind all variables whether each piece exists. Values stay in the byte order of the file. */
+/* ---- faces of cracks (pieces) -------------------------------------------------------------------------- */
+/* Copies the next record of f to the file with m crack faces: behind the n values of each component those at
+ * the corners of the faces, taken from their points; at the end, for each face, 1 if it exists at that time,
+ * else 0. old, new: space for one record of each file. Values stay in the byte order of the file. */
 static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_crack_face *piece,
                                double *old, double *new)
 {
@@ -273,13 +273,13 @@ static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, co
     if (pread (f->file, old, (size_t) f->record, f->begin + (long) k * f->record) != f->record)
         PG_FAIL (PG_E_FILE, "%s: %s", f->path, errno ? strerror (errno) : "it has become shorter");
     double time = old[0], *to = new + 1;
-    pg_netcdf_swap (&time, 1, sizeof time);               /* from the order of the file to that of the host */
+    pg_netcdf_swap (&time, 1, sizeof time);               /* from the byte order of the file to the host's */
     new[0] = old[0];
     for (size_t v = 0; v < f->nvar; v++) {
         const double *from = old + 1 + v * f->n;
         memcpy (to, from, f->n * sizeof *to);
         to += f->n;
-        /* the last one may be the volume, which pieces have none of */
+        /* the last component may be the volume, which is 0 at the corners of crack faces */
         int none = f->extra && v + 1 == f->nvar;
         for (size_t i = 0; i < each * m; i++) *to++ = none ? 0 : from[piece[i / each].point[i % each]];
     }
@@ -292,7 +292,7 @@ done:
     return status;
 }
 
-/* All records into the new file, which is opened at the end of its header. */
+/* Copies all records of f, widened by crack faces, into the new file, which has only a header so far. */
 static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_crack_face *piece)
 {
     pg_status status = PG_OK;
@@ -370,14 +370,14 @@ void pg_exodus_close (pg_exodus **file)
 }
 
 /* ---- the entry of the catalogue ------------------------------------------------------------------------ */
-/* The file of the whole or of a part. */
+/* Path of result.e, or, if the points are divided (share), of the part of this process. */
 static void path_of (char *out, size_t size, const char *folder, const pg_field_share *share)
 {
     if (share) pg_exodus_part_path (out, size, folder, share->size, share->part);
     else snprintf (out, size, "%s/result.e", folder);
 }
 
-/* A result, which needs its request again when it is complete. */
+/* State of this writer: the open file, and the request, which prepare_result needs again at the end. */
 typedef struct { pg_exodus *file; const pg_field_request *request; } result;
 
 static void close_result (void **self)
@@ -420,7 +420,8 @@ static long keep_length (const void *self)
 
 static pg_status sync_result (void *self) { return pg_exodus_sync (((result *) self)->file); }
 
-/* Rank 0 joins the parts, which stay. */
+/* One process: writes a copy of the file with the n crack faces. Several: rank 0 joins the parts if the user
+ * wants that; the parts stay. */
 static pg_status prepare_result (void *self, size_t n, const pg_crack_face *face)
 {
     const result *r = self;
@@ -429,7 +430,8 @@ static pg_status prepare_result (void *self, size_t n, const pg_crack_face *face
     return q->share->joined && q->share->part == 0 ? pg_exodus_join (q->folder, 1) : PG_OK;
 }
 
-/* Each rank removes its part. Beside a whole there may be parts of ranks that were killed before they did. */
+/* With joined parts each rank removes its own part; a single process also removes parts that ranks killed
+ * before this have left beside a complete result.e. */
 static pg_status finish_result (const char *folder, const pg_field_share *share, int done)
 {
     pg_status status = PG_OK;

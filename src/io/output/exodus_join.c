@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The parts of a result that ranks have written, result.e.SIZE.RANK, become one file in the order in which
- * one process lists the points, step by step: the bytes that it would have written. What a part says of the
- * whole (exodus_layout.c) is all that is needed, so that any program can do it, also after the run was
- * killed; steps that not all parts have are left out. */
+ * Joins the parts of a result that ranks have written, result.e.SIZE.RANK, to one file with the points in the
+ * order of a run by one process: the bytes that it would have written. The parts hold all that is needed
+ * (exodus_layout.c), so that any program can do it, also after the run was killed; steps that not all parts
+ * have are left out. */
 #include "exodus.h"
 #include "perigal/netcdf.h"
 #include <dirent.h>
@@ -12,9 +12,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A point of the whole: its number, and which of all points of the parts it is. */
+/* A point: its number in the whole, and its index when the points are listed part by part. */
 typedef struct { double number; size_t at; } place;
-/* The parts: their number, their clouds, one behind the other; order of all points; steps, fields. */
+/* The parts, `size` of them. all: the points, part by part, then sorted; order: the points by ascending
+ * number in the whole; nstep: the steps that all parts have; time: of each step; name: of each field. */
 typedef struct {
     const char *folder;
     int     size;
@@ -38,7 +39,7 @@ void pg_exodus_part_path (char *out, size_t size, const char *folder, int count,
     snprintf (out, size, "%s/result.e.%d.%0*d", folder, count, width, part);
 }
 
-/* 1: an entry of a folder is called like part `part` of `count`. */
+/* 1 if a file name is that of a part, result.e.COUNT.PART; *count and *part are read from it. */
 static int is_part (const char *name, int *count, int *part)
 {
     char own[64];
@@ -48,8 +49,8 @@ static int is_part (const char *name, int *count, int *part)
     return strcmp (own + 2, name) == 0;
 }
 
-/* Into how many parts the newest result of the folder is divided; 0: there are none. *when: of its last
- * change. */
+/* Returns the number of parts of the newest divided result in the folder; 0: there are no parts. *when: time
+ * of the last change of a part. */
 static int find_parts (const char *folder, struct timespec *when)
 {
     int size = 0;
@@ -98,7 +99,7 @@ done:
     return status;
 }
 
-/* Numbers of the points of a part, and the title. */
+/* Reads the numbers that the n points of a part have in the whole, and the title of the file. */
 static pg_status read_header (parts *p, const char *path, size_t n, double *number)
 {
     pg_status status = PG_OK;
@@ -114,7 +115,8 @@ done:
     return status;
 }
 
-/* The points of a part behind those of the ones before it, which are *at; times are those of the first. */
+/* Appends the points of a part to p->all, behind the *at points of the parts before it, and reduces p->nstep
+ * to the number of steps of this part if it has fewer. */
 static pg_status add_points (parts *p, int part, size_t *at)
 {
     pg_status status = PG_OK;
@@ -139,7 +141,7 @@ done:
     return status;
 }
 
-/* What belongs to the points, `size` bytes each, in the order of the whole. */
+/* Sorts an array with `size` bytes per point from the order part by part to that of the whole. */
 static pg_status sort_by_place (const parts *p, size_t size, void **what)
 {
     pg_status status = PG_OK;
@@ -153,7 +155,7 @@ done:
     return status;
 }
 
-/* The cloud of the whole, its steps and names of fields. */
+/* Reads the points of all parts into p->all, in the order of the whole, and the steps and names of fields. */
 static pg_status read_whole (parts *p)
 {
     pg_status status = PG_OK;
@@ -189,12 +191,12 @@ static pg_status read_whole (parts *p)
     all->volume = volume;
     PG_TRY (sort_by_place (p, sizeof (int), &block));
     all->block = block;
-    if (p->nfield && strcmp (p->name[p->nfield - 1], "volume") == 0) p->nfield--;   /* comes by itself */
+    if (p->nfield && strcmp (p->name[p->nfield - 1], "volume") == 0) p->nfield--;   /* always added */
 done:
     return status;
 }
 
-/* A field of a step from all parts. */
+/* Reads field f->name of a step from all parts into *out, in the order of the whole. */
 static pg_status read_field (const parts *p, size_t step, pg_field_view *f, double **out)
 {
     pg_status status = PG_OK;
@@ -225,7 +227,7 @@ done:
     return status;
 }
 
-/* Step by step under another name, which the whole file gives up for its own. */
+/* Writes the joined file step by step as result.e.whole, which is renamed to result.e when it is complete. */
 static pg_status write_whole (const parts *p)
 {
     pg_status status = PG_OK;

@@ -4,9 +4,9 @@
  * ParaView and VisIt can draw; vals_nod_var<k> (time_step x num_nodes) is one component of one
  * field.
  *
- * Faces of cracks are a block of elements BAR2 (in the plane) or TRI3 (in space) behind those of the points;
- * each has nodes of its own. The element variable `exists` of that block is 1 from the time on at which the
- * face has come into being; points have no such variable (elem_var_tab).
+ * Faces of cracks (pieces) are a block of elements BAR2 (2D) or TRI3 (3D) behind those of the points; each
+ * has nodes of its own. The element variable `exists` of that block is 1 from the time on at which the face
+ * has come into being; points have no such variable (elem_var_tab).
  *
  * Beyond Exodus the file has what exodus_read.c needs to restore the points: attributes
  * `field` and `units` of each variable, the variable `point_volume`, and global attributes for
@@ -24,19 +24,21 @@ typedef struct {
     const exodus_layout *l;
     netcdf_writer *file;
     int     dim;
-    /* Points; nodes: those and the corners of pieces of cracks; blocks of points. */
+    /* Numbers of points; of nodes, which are the points and the corners of crack faces; of blocks of
+     * points. */
     size_t  n, nodes, nblock;
     /* The different values of cloud->block, ascending (nblock). */
     int    *block;
-    /* Scratch space (n). */
+    /* Scratch space (nodes). */
     double *work;
-    /* Scratch space (n). */
+    /* Scratch space (nodes + 1, at least nblock + 1). */
     int    *node;
-    /* A part of a whole whose numbers of points need more than 32 bits. */
+    /* 1: the file is a part, and numbers of its points in the whole do not fit into 32-bit integers. */
     int     large;
 } writer;
 
-/* Statistics of a part: whether it has inner nodes and elements, such at its border, and nodes beyond. */
+/* Nemesis variables that say whether a part has internal nodes, internal elements, border nodes, external
+ * nodes and border elements (1: yes). */
 static const char *const node_status[] = { "int_n_stat", "int_e_stat", "bor_n_stat", "ext_n_stat",
                                            "bor_e_stat" };
 
@@ -82,7 +84,7 @@ static void define_names (writer *w, const char *variable, int row_dim, int name
     netcdf_define_variable (w->file, variable, PG_NC_CHAR, 2, (int[2]) { row_dim, name_dim });
 }
 
-/* Coordinates, names of the axes, volumes. */
+/* Defines the coordinates of the nodes, the names of the axes and the volumes of the points (m3). */
 static void define_points (writer *w, int nodes, int name_dim)
 {
     static const char *const variable[] = { "coordx", "coordy", "coordz" };
@@ -100,7 +102,7 @@ static int belongs (const writer *w, size_t i, size_t k)
     return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k];
 }
 
-/* Points of block k. */
+/* Number of points in block k. */
 static size_t count (const writer *w, size_t k)
 {
     size_t m = 0;
@@ -108,8 +110,8 @@ static size_t count (const writer *w, size_t k)
     return m;
 }
 
-/* One block of elements with `each` nodes: connect<k> (elements x each) lists them, counted from 1. Readers
- * of Exodus draw one glyph per sphere, which is why every point is an element, too. */
+/* Defines block k of m elements with `each` nodes: connect<k + 1> (m x each) lists the nodes, counted from 1.
+ * Readers of Exodus draw one glyph per sphere, which is why every point is an element, too. */
 static void define_block (writer *w, size_t k, size_t m, size_t each, const char *type)
 {
     char name[NAME];
@@ -123,8 +125,8 @@ static void define_block (writer *w, size_t k, size_t m, size_t each, const char
                         type);
 }
 
-/* What the Nemesis interface reads of a part: how many parts there are, what the whole has, numbers in the
- * whole of nodes and elements (those of one point are the same). No node is on two parts. */
+/* Defines what the Nemesis interface (parallel Exodus) reads of a part: the number of parts, the sizes of the
+ * whole, and the numbers of nodes and elements in the whole (equal for a point). No node is on two parts. */
 static void define_share (writer *w, int nodes)
 {
     const pg_field_share *s = w->l->share;
@@ -151,7 +153,8 @@ static void define_share (writer *w, int nodes)
     } else netcdf_define_variable (w->file, "point_number", PG_NC_DOUBLE, 1, &nodes);
 }
 
-/* The blocks with their numbers and names. A part may have none of the points of a block. */
+/* Defines the blocks with their numbers and names. A part may lack points of a block, which then has no
+ * elements there. */
 static void define_blocks (writer *w, int name_dim)
 {
     int dim = netcdf_define_dimension (w->file, "num_el_blk", w->nblock + (w->l->npiece > 0));
@@ -167,8 +170,8 @@ static void define_blocks (writer *w, int name_dim)
     define_names (w, "eb_names", dim, name_dim);
 }
 
-/* The variables of a step, with the field they belong to and their unit as attributes. Their
- * order in a record is the order of their definition, on which exodus.c relies. */
+/* Defines the variables of a step, with the field they belong to and their unit as attributes.
+ * Their order in a record is the order of their definition, on which exodus.c relies. */
 static void define_fields (writer *w, int steps, int nodes, int name_dim)
 {
     char name[NAME];
@@ -185,7 +188,7 @@ static void define_fields (writer *w, int steps, int nodes, int name_dim)
         }
 }
 
-/* The variable of cracks, which only their block has. */
+/* Defines the element variable `exists` of the block of crack faces; other blocks do not have it. */
 static void define_existence (writer *w, int steps, int name_dim)
 {
     char name[NAME];
@@ -219,7 +222,7 @@ static pg_status define_all (writer *w)
 }
 
 /* ---- values that stay ---------------------------------------------------------------------------------- */
-/* Writes the first n values of a variable, which are all. */
+/* Writes all n values of a variable. */
 static pg_status put (writer *w, const char *variable, size_t n, const void *value)
 {
     return netcdf_put (w->file, netcdf_variable_of (w->file, variable), 0, n, value);
@@ -253,7 +256,8 @@ done:
     return status;
 }
 
-/* Writes the block of cracks, and that it alone has the variable. */
+/* Writes the block of crack faces, and the table which says that only this block has the variable
+ * `exists`. */
 static pg_status put_pieces (writer *w)
 {
     pg_status status = PG_OK;
@@ -294,7 +298,8 @@ done:
     return status;
 }
 
-/* Numbers in the whole: of the nodes, then of the elements, which are listed block by block. */
+/* Writes the numbers in the whole, from 1, of the nodes and of the elements, which are listed block by
+ * block. */
 static pg_status put_maps (writer *w)
 {
     pg_status status = PG_OK;
@@ -348,7 +353,8 @@ done:
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
-/* Every part has all blocks of the whole, in the same order. */
+/* Lists in w->block the blocks of the whole that have points: every part has all of them, in the same
+ * order. */
 static pg_status find_blocks_of_whole (writer *w)
 {
     pg_status status = PG_OK;
@@ -382,7 +388,7 @@ done:
     return status;
 }
 
-/* A variable may have 2^32 - 4 bytes per step with 64-bit offsets, and any number in version 5. */
+/* Version 5 is used where needed: with version 2 a variable may have at most 2^32 - 4 bytes per step. */
 pg_status pg_exodus_layout_write (const exodus_layout *layout)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reads result.e back: points with volumes and blocks (nodes of cracks, which lie behind them, are left
- * out), and fields, whose components are grouped by the attribute `field` of vals_nod_var<k>. Files of other
- * programs do not have that attribute; there every variable is a field with one component.
+ * Reads result.e back: points with volumes and blocks (nodes of crack faces, which follow the points, are
+ * left out), and fields, whose components are grouped by the attribute `field` of vals_nod_var<k>. Files of
+ * other programs do not have that attribute; there every variable is a field with one component.
  *
  * Each function opens and closes the file: they are called a few times per run of a program,
  * and no state is left between calls. */
@@ -22,7 +22,8 @@ typedef struct {
     part   *part;
 } reader;
 
-/* Number of points: of the nodes those before the corners of cracks; all, where the file does not say. */
+/* Number of points: attribute `points` of the file, as the nodes of crack faces follow the points; all nodes
+ * where the file has no such attribute. */
 static size_t points_of (const pg_netcdf *file)
 {
     size_t n = pg_netcdf_length (file, "num_nodes");
@@ -111,8 +112,8 @@ static void list_fields (const reader *r, char *text, size_t size)
 }
 
 /* Index of the first component of a field and the number of its components; PG_E_USAGE names the fields
- * that there are, and the nearest one. Counted from the last to the first, so that the first is what is
- * left. */
+ * of the file, and the nearest one. The loop runs from the last component to the first, so that *first is the
+ * first one in the end. */
 static pg_status find_field (const reader *r, const char *field, size_t *first, int *components)
 {
     pg_status status = PG_OK;
@@ -248,7 +249,7 @@ static pg_status read_blocks (const reader *r, pg_cloud *cloud)
         if (has_cracks && var >= 0 && pg_netcdf_text (r->file, var, "elem_type", type, sizeof type)
             && (strcmp (type, "BAR2") == 0 || strcmp (type, "TRI3") == 0))
             continue;
-        if (var < 0 && pg_netcdf_find (r->file, "el_blk_cnt_global") >= 0) continue; /* on other parts */
+        if (var < 0 && pg_netcdf_find (r->file, "el_blk_cnt_global") >= 0) continue; /* no point here */
         snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
         size_t count = pg_netcdf_length (r->file, name);
         snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
@@ -269,9 +270,8 @@ done:
     return status;
 }
 
-/* The thickness of files of other programs is 1 m, that of plane models that do not say
- * otherwise. After a failure the cloud is empty and *time is NULL, so that callers need no
- * clean-up. */
+/* A file without a thickness (of another program) gets 1 m, the default of 2D models. After a
+ * failure the cloud is empty and *time is NULL, so that callers need no clean-up. */
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud, size_t *nstep, double **time)
 {
     pg_status status = PG_OK;

@@ -14,7 +14,8 @@
 /* Largest number of levels. */
 enum { DEPTH = 32 };
 
-/* A JSON text that is being written. misuse: a call did not fit; bracket: of the open levels. */
+/* A JSON text that is being written. misuse: 1 once a call was not allowed where it came; bracket: '{' or '['
+ * of each open level (depth of them). */
 struct pg_json {
     FILE *file;
     char *path, *temporary;

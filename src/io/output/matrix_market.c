@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The comment, each of its lines behind a %. */
+/* Writes the comment, with a % before each of its lines. */
 static void put_comment (FILE *to, const char *comment)
 {
     while (comment && *comment) {

@@ -15,13 +15,14 @@
 /* Tags of the lists of the header; bytes that are collected before they are written. */
 enum { DIMENSION = 10, VARIABLE = 11, ATTRIBUTE = 12, BUFFER = 1 << 20 };
 
-/* Bytes that grow. */
+/* A growing array of bytes: n are used, room are allocated. */
 typedef struct { unsigned char *data; size_t n, room; } bytes;
 /* A dimension, with its name. */
 typedef struct { char name[PG_NC_NAME + 1]; size_t length; } dimension;
-/* A list of attributes as it will stand in the header. */
+/* A list of n attributes, encoded as it will stand in the header. */
 typedef struct { size_t n; bytes text; } attributes;
-/* A variable; size: of its values, of one record where it has records, padded; begin: its first byte. */
+/* A variable. record: 1 if it has the record dimension; n, size: number and padded bytes of its values (of
+ * one record if it has records); begin: offset of its first byte in the file. */
 typedef struct {
     char       name[PG_NC_NAME + 1];
     int        type, record;
@@ -40,13 +41,13 @@ struct netcdf_writer {
     dimension *dim;
     stored *var;
     attributes all;
-    /* First byte of the records. */
+    /* Offset in the file at which the records begin. */
     uint64_t records;
-    /* Values that wait, and where their first byte belongs. */
+    /* Values not yet written (fill bytes), and the offset in the file to which they belong. */
     unsigned char *buffer;
     size_t   fill;
     uint64_t at;
-    /* End of what has been written. */
+    /* Offset behind the last byte that has been written. */
     uint64_t top;
 };
 
@@ -76,7 +77,7 @@ done:
     w->status = status;
 }
 
-/* A whole number of that many bytes. */
+/* Appends an integer of m bytes, the most significant byte first. */
 static void append_whole (netcdf_writer *w, bytes *b, uint64_t value, size_t m)
 {
     unsigned char text[8];
@@ -84,7 +85,7 @@ static void append_whole (netcdf_writer *w, bytes *b, uint64_t value, size_t m)
     append (w, b, text, m);
 }
 
-/* A count, as wide as this version has them. */
+/* Appends a count or a length: 8 bytes in version 5, otherwise 4. */
 static void append_count (netcdf_writer *w, bytes *b, uint64_t value)
 {
     append_whole (w, b, value, w->version == 5 ? 8 : 4);
@@ -127,10 +128,10 @@ int netcdf_variable_of (const netcdf_writer *w, const char *name)
     return -1;
 }
 
-/* Keeps the first fault. */
+/* Stores the status of a failed definition in w->status unless an earlier one has failed. */
 static void keep (netcdf_writer *w, pg_status status) { if (w->status == PG_OK) w->status = status; }
 
-/* Copies a name, which must be there, fit, and be new. */
+/* Copies a name to `out`. PG_E_USAGE: it is empty, too long, or in use already (known >= 0). */
 static pg_status take_name (netcdf_writer *w, const char *what, const char *name, int known, char *out)
 {
     pg_status status = PG_OK;
@@ -180,13 +181,13 @@ done:
     return (int) w->nvar - 1;
 }
 
-/* The list that an attribute belongs to; NULL: a fault has occurred before. */
+/* The attribute list of a variable (-1: of the file); NULL: an earlier definition has failed. */
 static attributes *list_of (netcdf_writer *w, int variable)
 {
     return w->status != PG_OK ? NULL : variable < 0 ? &w->all : &w->var[variable].own;
 }
 
-/* Head of an attribute: name, type, number of values. */
+/* Appends the head of an attribute to a list: name, type, number of values. */
 static void append_head (netcdf_writer *w, attributes *list, const char *name, int type, size_t n)
 {
     list->n++;
@@ -211,7 +212,7 @@ void netcdf_define_numbers (netcdf_writer *w, int variable, const char *name, in
     unsigned char one[8];
     if (!list) return;
     append_head (w, list, name, type, n);
-    /* all that are written have 4 or 8 bytes, so that none needs padding of its own */
+    /* the numeric types used here have 4 or 8 bytes, so that append adds no padding between values */
     for (size_t k = 0; k < n; k++) {
         memcpy (one, (const char *) value + k * size, size);
         pg_netcdf_swap (one, 1, size);
@@ -220,7 +221,7 @@ void netcdf_define_numbers (netcdf_writer *w, int variable, const char *name, in
 }
 
 /* ---- the header ---------------------------------------------------------------------------------------- */
-/* A list: tag and number of its items, zeros where there are none. */
+/* Appends the head of a list: its tag and the number of its items, two zeros if the list is empty. */
 static void append_list (netcdf_writer *w, bytes *b, int tag, size_t n)
 {
     append_whole (w, b, n ? (uint64_t) tag : 0, 4);
@@ -233,8 +234,8 @@ static void append_attributes (netcdf_writer *w, bytes *b, const attributes *lis
     if (list->n) append (w, b, list->text.data, list->text.n);
 }
 
-/* One variable. Sizes that do not fit into a count are all ones, by the specification; readers compute them
- * from the dimensions. */
+/* Appends the header entry of a variable. A size that does not fit into a count is written as all ones, by
+ * the specification; readers compute it from the dimensions. */
 static void append_variable (netcdf_writer *w, bytes *b, const stored *v)
 {
     append_name (w, b, v->name);
@@ -246,7 +247,7 @@ static void append_variable (netcdf_writer *w, bytes *b, const stored *v)
     append_whole (w, b, v->begin, 8);
 }
 
-/* The whole header, without records yet. */
+/* Builds the whole header in b, with a record count of 0. */
 static void build (netcdf_writer *w, bytes *b)
 {
     const unsigned char magic[4] = { 'C', 'D', 'F', (unsigned char) w->version };
@@ -263,7 +264,8 @@ static void build (netcdf_writer *w, bytes *b)
     for (size_t k = 0; k < w->nvar; k++) append_variable (w, b, &w->var[k]);
 }
 
-/* Variables without records in their order from byte `at` on, behind them those of one record. */
+/* Sets the offsets of the variables: from byte `at` on those without records, then those of the first
+ * record. */
 static void lay_out (netcdf_writer *w, uint64_t at)
 {
     for (int record = 0; record < 2; record++) {
@@ -290,7 +292,7 @@ done:
 }
 
 /* ---- values -------------------------------------------------------------------------------------------- */
-/* Writes what waits. */
+/* Writes the buffered values to the file and empties the buffer. */
 static pg_status flush (netcdf_writer *w)
 {
     pg_status status = w->fill ? pg_disk_write (w->path, w->file, w->buffer, w->fill, (long) w->at) : PG_OK;
@@ -307,7 +309,7 @@ pg_status netcdf_put (netcdf_writer *w, int variable_number, size_t first, size_
     uint64_t to = v->begin + first * size;
     if (v->record || first > v->n || n > v->n - first)
         PG_FAIL (PG_E_USAGE, "%s: '%s' has no values %zu to %zu", w->path, v->name, first, first + n);
-    /* the padding behind the variable before is no reason to write twice */
+    /* a gap of up to 3 bytes is padding behind the previous variable: zeros are buffered for it, no flush */
     uint64_t gap = to - (w->at + w->fill), most = first == 0 ? 3 : 0;
     if (to < w->at + w->fill || gap > most || gap > BUFFER - w->fill) {
         PG_TRY (flush (w));
@@ -325,7 +327,7 @@ done:
     return status;
 }
 
-/* The file ends where the records begin, at least. */
+/* The file is extended, if need be, to the offset at which the records begin. */
 pg_status netcdf_finish (netcdf_writer **writer)
 {
     pg_status status = PG_OK;

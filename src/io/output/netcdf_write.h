@@ -10,25 +10,26 @@
 typedef struct netcdf_writer netcdf_writer;
 /* Creates the file. version: 2 for offsets of 64 bits, or 5 for counts of 64 bits and types of 8 bytes. */
 pg_status netcdf_create (netcdf_writer **out, const char *path, int version);
-/* A dimension; length 0: that of the records. Returns its number. */
+/* Defines a dimension (length 0: the record dimension) and returns its number. */
 int       netcdf_define_dimension (netcdf_writer *w, const char *name, size_t length);
-/* A variable over ndim dimensions; one of records has that dimension first. Returns its number. A second
- * one of the same name is a fault (PG_E_USAGE). */
+/* Defines a variable over ndim dimensions, the record dimension first if it has it, and returns its number.
+ * A second variable of the same name is a fault (PG_E_USAGE). */
 int       netcdf_define_variable (netcdf_writer *w, const char *name, int type, size_t ndim, const int *dim);
-/* An attribute of a variable, -1: of the file: a text, or n numbers of the type (float, double or int). */
+/* Define an attribute of a variable (-1: of the file): a text, or n numbers of a type (float, double,
+ * int). */
 void      netcdf_define_text    (netcdf_writer *w, int variable, const char *name, const char *text);
 void      netcdf_define_numbers (netcdf_writer *w, int variable, const char *name, int type, size_t n,
                                  const void *value);
-/* Numbers by name; -1: there is none. */
+/* The number of the dimension or of the variable of that name; -1: there is none. */
 int       netcdf_dimension_of (const netcdf_writer *w, const char *name);
 int       netcdf_variable_of  (const netcdf_writer *w, const char *name);
-/* Ends the definitions. */
+/* Ends the definitions and writes the header; returns the first fault of a definition. */
 pg_status netcdf_end_header (netcdf_writer *w);
-/* Values first .. first + n - 1 of a variable without records, of the type of the file: double, int, long
- * (INT64) or char. Neighbours are collected and written together. */
+/* Writes values first .. first + n - 1 of a variable without records, given as the C type of the variable:
+ * double, int, long (INT64) or char. Adjacent values are collected and written together. */
 pg_status netcdf_put (netcdf_writer *w, int variable, size_t first, size_t n, const void *value);
-/* Writes what is left and closes the file; what nobody has written is zero. NULL is allowed; after a failure
- * the file is closed too. */
+/* Writes the values still collected and closes the file, also after a failure; values that were never put are
+ * zero. *w may be NULL. */
 pg_status netcdf_finish (netcdf_writer **w);
 /* Closes the file after a fault, as it is. */
 void      netcdf_abandon (netcdf_writer **w);

@@ -16,13 +16,14 @@ struct pg_table {
     size_t n;
     /* Rows without the header, and the bytes of all whole rows. */
     long   rows, bytes;
-    /* Rows that have been collected, whole ones of them, and one that is being collected. */
+    /* Text of rows that are not written yet (length bytes), the last one perhaps incomplete; waiting: number
+     * of complete rows in it. */
     char  *text;
     size_t length, cap;
     long   waiting;
 };
 
-/* Bytes of rows that wait at most. */
+/* Rows whose text exceeds this number of bytes do not wait any longer but are written. */
 enum { ENOUGH = 1 << 16 };
 
 /* Appends text to the rows that are being collected. */
@@ -61,8 +62,8 @@ static pg_status end_row (pg_table *t)
     return status;
 }
 
-/* As few system calls as the system allows; if not all of it can be written, the file is shortened to what it
- * was. Afterwards nothing waits. */
+/* Writes all collected rows. If they cannot be written completely, the file is cut back to its previous
+ * length. No rows wait afterwards, also after a failure. */
 pg_status pg_table_write (pg_table *t)
 {
     pg_status status = PG_OK;
@@ -82,7 +83,7 @@ done:
     return status;
 }
 
-/* Writes what has been collected, or drops it where that has failed. */
+/* Writes the collected rows, or drops them if `status` says that collecting them has failed. */
 static pg_status conclude (pg_table *t, pg_status status)
 {
     if (status == PG_OK) return pg_table_write (t);
@@ -221,7 +222,7 @@ done:
 /* Writes a row of texts; NULL is an empty cell. */
 pg_status pg_table_line (pg_table *t, const char *const *values) { return conclude (t, collect (t, values)); }
 
-/* A system call costs more than the text of a row. */
+/* Rows wait in memory because a system call costs more than the text of a row. */
 pg_status pg_table_line_later (pg_table *t, const char *const *values)
 {
     pg_status status = collect (t, values);
@@ -230,7 +231,7 @@ pg_status pg_table_line_later (pg_table *t, const char *const *values)
 
 pg_status pg_table_sync (const pg_table *t) { return pg_file_sync (t->path); }
 
-/* Rows that wait belong to something that has failed: what is whole has been written. */
+/* Rows that still wait are dropped: they belong to output that has failed before it was complete. */
 void pg_table_close (pg_table **table)
 {
     if (!table || !*table) return;
