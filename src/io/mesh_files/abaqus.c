@@ -14,13 +14,13 @@
 #include <string.h>
 #include <strings.h>
 
-/* A limit, since files may include one another. */
+/* Largest number of *INCLUDE lines, a limit because files may include one another without end. */
 enum { MOST_INCLUDES = 1000 };
 typedef abaqus_reader reader;
 /* The innermost open file. */
 static const abaqus_file *now (const reader *r) { return &r->file[r->depth]; }
 
-/* The place is that of the innermost file. */
+/* The message names the innermost open file and its present line. */
 pg_status abaqus_wrong (const reader *r, const char *where, const char *format, ...)
 {
     char why[400];
@@ -51,7 +51,7 @@ static void file_close (abaqus_file *f)
 }
 
 /* ---- keyword lines ------------------------------------------------------------------------------------- */
-/* Names may be in quotes, within which blanks and commas are letters. */
+/* Names may be in quotes, within which blanks and commas belong to the name. */
 void abaqus_trim (char *to, size_t size, const char *s, const char *end)
 {
     while (s < end && isspace ((unsigned char) *s)) s++;
@@ -89,7 +89,8 @@ static void add_parameter (reader *r, const char *s, const char *end)
     if (p->key[0]) r->nparameter++;
 }
 
-/* A keyword line, *KEYWORD, KEY=VALUE, KEY ...; one that ends with a comma continues on the next line. */
+/* Parses a keyword line *KEYWORD, KEY=VALUE, KEY ...; one that ends with a comma continues on the next
+ * line. */
 static void read_keyword (reader *r)
 {
     abaqus_file *f = &r->file[r->depth];
@@ -151,8 +152,8 @@ done:
     return status;
 }
 
-/* Elements of a type that is not known are passed over, and remembered with their block: they bar the file
- * only where that block is meant. */
+/* Skips elements of an unknown type but reports them to the builder with their block: the file is refused
+ * only if that block is used. */
 static pg_status pass_elements (reader *r, const char *type, const char *near, const char *set)
 {
     pg_status status = PG_OK;
@@ -184,7 +185,7 @@ static pg_status begin_elements (reader *r)
     r->set = -1, r->goes_on = 0;
     if (!found) PG_TRY (pass_elements (r, type, near, set));
     if (found == 2) PG_TRY (pg_mesh_builder_pass (r->data.builder, "elements %.30s", type));
-    /* the set may be named by others, and by sections */
+    /* the set of skipped elements must exist, as other sets and sections may name it */
     if (found != 1 && set && *set) PG_TRY (abaqus_set_get (&r->data.elset, set, &r->set));
     if (found != 1) goto done;
     if (strncmp (capitals, "CPE", 3) == 0) pg_mesh_builder_plane_strain (r->data.builder, capitals);
@@ -246,7 +247,7 @@ done:
     return status;
 }
 
-/* A section makes its element set a block where elements have no other. */
+/* *SOLID SECTION and the like: their element set becomes a block for elements that have no other set. */
 static pg_status begin_section (reader *r)
 {
     pg_status status = PG_OK;
@@ -324,7 +325,7 @@ static pg_status finish_element (const reader *r)
                      r->element_line, r->element, r->have, r->type.nodes);
 }
 
-/* Entries of the table below. */
+/* Functions for the table `keywords`. */
 static pg_status begin_nset (reader *r)    { return begin_set (r, 1); }
 static pg_status begin_elset (reader *r)   { return begin_set (r, 0); }
 static pg_status begin_included (reader *r) { return begin_include (r, value_of (r, "INPUT")); }
@@ -344,7 +345,7 @@ static const struct { const char *keyword; pg_status (*begin) (reader *r); } key
     { "MEMBRANESECTION", begin_section }, { "PART", begin_part },
 };
 
-/* A line *KEYWORD, PARAMETER=VALUE...: what its data lines fill, until the next one. */
+/* Reads a line *KEYWORD, PARAMETER=VALUE... and sets what the data lines mean until the next keyword. */
 static pg_status begin (reader *r)
 {
     enum { KEYWORDS = sizeof keywords / sizeof *keywords };
@@ -367,7 +368,7 @@ static pg_status begin (reader *r)
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
-/* Lines of all files, the included ones in their place. */
+/* Reads the lines of all files, those of included files where *INCLUDE names them. */
 static pg_status read_all (reader *r)
 {
     pg_status status = PG_OK;

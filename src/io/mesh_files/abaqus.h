@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: what the files of the .inp reader share: element types (abaqus_type.c), what was read before
- * names and numbers are resolved (filled by abaqus.c and abaqus_data.c), and the way from there into a mesh
- * (abaqus_sets.c).
+ * names and numbers are resolved (filled by abaqus.c and abaqus_data.c), and the functions that turn this
+ * into a mesh (abaqus_sets.c).
  *
  * An .inp file may name sets before their members exist, and sets of sets, so that resolving has to wait
  * for the end. Only one part with at most one instance can be read, because numbers are unique within a
@@ -16,27 +16,28 @@ typedef struct {
     pg_element kind;
     /* Number of nodes on the lines of the file. */
     int  nodes;
-    /* 1: a shell or membrane: its faces 1 and 2 are no sides of the plane element. */
+    /* 1: a shell or membrane: its faces 1 and 2 are its top and bottom, not edges of the 2D element. */
     int  shell;
 } abaqus_type;
 /* Looks up a type. 0: unknown (near: the nearest known name, or ""); 1: an element; 2: one without extent
  * (springs, masses ...), which is skipped. */
 int abaqus_find_type (const char *name, abaqus_type *type, char near[32]);
-/* order[k]: which node of the file is node k of the element. */
+/* order[k]: position, on the lines of the file, of the node that is node k in the order of Exodus. */
 void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES]);
 /* Side, from 0, of a face as *SURFACE names it (S1, P2, E3); -1: the element has none such; -2: a face of a
  * shell (SPOS, SNEG, S1, S2). */
 int abaqus_side (pg_element kind, int shell, const char *face);
 
 /* ---- what the lines say -------------------------------------------------------------------------------- */
-/* Length of a name. */
+/* Bytes of the name of a set or surface, with the final zero. */
 enum { ABAQUS_NAME = 64 };
-/* Members of a set: the numbers first, first + step, ... last. line: of the file, where a member that does
- * not exist is a fault, else 0. */
+/* Members of a set: the numbers first, first + step, ... last. line: number of the line that names them, if a
+ * member that does not exist is a fault, else 0. */
 typedef struct { long first, last, step, line; } abaqus_range;
-/* Other values of step: all of set number `first`; the nodes of element set number `first`. */
+/* Special values of abaqus_range.step: the members of set number `first`; the nodes of element set
+ * `first`. */
 enum { ABAQUS_SET = 0, ABAQUS_NODES_OF = -1 };
-/* A set; named: *ELEMENT names it, so that it is a block. */
+/* A set; named: 1 if *ELEMENT or a section names it, so that it is a block. */
 typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_range *range; int named; } abaqus_set;
 /* All node sets, or all element sets. */
 typedef struct { size_t n, capacity; abaqus_set *set; } abaqus_sets;
@@ -65,7 +66,7 @@ typedef struct {
 } abaqus;
 
 /* ---- abaqus.c, abaqus_data.c: a file being read -------------------------------------------------------- */
-/* Files that include one another, at most; parameters of a keyword; length of a word. */
+/* Largest depth of files that include one another, number of parameters of a keyword, bytes of a word. */
 enum { ABAQUS_DEEPEST = 8, ABAQUS_PARAMETERS = 24, ABAQUS_WORD = 256 };
 
 /* What data lines mean at present. */
@@ -100,17 +101,17 @@ typedef struct {
     /* Parameters of the present keyword line. */
     int         nparameter;
     abaqus_parameter parameter[ABAQUS_PARAMETERS];
-    /* What data lines fill: set, whether by ranges (GENERATE), surface. */
+    /* What data lines fill: index of the set, 1 if by ranges (GENERATE), index of the surface. */
     int         set, generate, surface;
     /* Type of the elements that data lines give. */
     abaqus_type type;
-    /* order[k]: which node on the lines is node k of the element. */
+    /* order[k]: position on the lines of the node that is node k of the element. */
     int         order[PG_ELEMENT_NODES];
     /* The element whose nodes are being read, and the line where it begins. */
     long        element, element_line, node[PG_ELEMENT_NODES];
-    /* How many of its nodes have been read; -1: no element has begun. */
+    /* How many nodes of the present element have been read; -1: no element has begun. */
     int         have;
-    /* 1: the line before ended with a comma, so that an element that is passed over goes on. */
+    /* 1: the last line ended with a comma, so that this one continues an element that is skipped. */
     int         goes_on;
     /* Numbers of *PART and *INSTANCE so far; name of the one instance. */
     int         parts, instances;
@@ -127,8 +128,8 @@ void      abaqus_trim  (char *to, size_t size, const char *s, const char *end);
 pg_status abaqus_data  (abaqus_reader *r);
 
 /* ---- abaqus_sets.c ------------------------------------------------------------------------------------- */
-/* Number of the set of that name, without regard to case; -1: there is none. abaqus_set_get creates it
- * then. */
+/* Index of the set of that name, without regard to case; -1: there is none. abaqus_set_get creates a set that
+ * does not exist. */
 int       abaqus_set_find (const abaqus_sets *sets, const char *name);
 pg_status abaqus_set_get  (abaqus_sets *sets, const char *name, int *set);
 /* Appends members; sets hold ranges, not single numbers. */

@@ -11,7 +11,7 @@ typedef abaqus_reader reader;
 /* The innermost open file. */
 static const abaqus_file *now (const reader *r) { return &r->file[r->depth]; }
 
-/* Behind blanks and one comma. */
+/* Returns the position behind blanks and, if one follows, a comma. */
 static const char *skip_comma (const char *s, const char *end)
 {
     while (s < end && (*s == ' ' || *s == '\t')) s++;
@@ -32,7 +32,7 @@ static int empty (const char *s, const char *end)
     return s == end || *s == ',';
 }
 
-/* NUMBER, X, Y, Z; coordinates left out are zero. */
+/* Reads a node: NUMBER, X, Y, Z; coordinates left out are zero. */
 static pg_status node_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* The element whose nodes are complete goes to the builder, its group being its set + 1. */
+/* Gives the element whose nodes are complete to the builder; its group is the index of its set + 1. */
 static pg_status add_element (reader *r)
 {
     pg_status status = PG_OK;
@@ -76,7 +76,7 @@ done:
     return status;
 }
 
-/* Number of an element, then its nodes, on as many lines as it takes. */
+/* Reads a line of an element: its number, then its nodes, which may extend over several lines. */
 static pg_status element_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -125,7 +125,7 @@ static int is_number (const char *word, long *value)
     return mesh_whole (&word, end, value) && word == end;
 }
 
-/* Members of a set: numbers, or names of sets that exist already. */
+/* Reads members of a set: numbers, or names of sets that exist already. */
 static pg_status set_line (reader *r, abaqus_sets *sets, const char *what)
 {
     pg_status status = PG_OK;
@@ -151,7 +151,7 @@ done:
     return status;
 }
 
-/* FIRST, LAST, STEP. */
+/* Reads a line of a set by GENERATE: FIRST, LAST, STEP. */
 static pg_status generate_line (reader *r, abaqus_set *set)
 {
     pg_status status = PG_OK;
@@ -168,7 +168,7 @@ done:
     return status;
 }
 
-/* An element or an element set, and a face. */
+/* Reads a line of *SURFACE: an element or an element set, and a face such as S1. */
 static pg_status surface_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -199,7 +199,7 @@ done:
     return status;
 }
 
-/* Where an instance is placed: only parts that stay where they are written can be read. */
+/* Reads the translation and rotation of an instance, which must be zero. */
 static pg_status instance_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -215,7 +215,7 @@ done:
     return status;
 }
 
-/* An element that is passed over: its number counts, for sets that name it. */
+/* Reads a line of an element that is skipped, and stores its number, as sets may name it. */
 static pg_status skipped_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -229,7 +229,7 @@ done:
     return status;
 }
 
-/* Empty lines are skipped. */
+/* The mode, set by the present keyword, decides how the line is read; empty lines are skipped. */
 pg_status abaqus_data (reader *r)
 {
     abaqus *a = &r->data;

@@ -17,7 +17,7 @@ int abaqus_set_find (const abaqus_sets *sets, const char *name)
     return -1;
 }
 
-/* A new set is empty. */
+/* A set that does not exist yet is created empty. */
 pg_status abaqus_set_get (abaqus_sets *sets, const char *name, int *set)
 {
     pg_status status = PG_OK;
@@ -31,12 +31,12 @@ done:
     return status;
 }
 
-/* Numbers that follow one another share an entry, as sets often list a million of them. */
+/* Consecutive numbers share one range, as sets often list a million of them. */
 pg_status abaqus_set_add (abaqus_set *set, abaqus_range range)
 {
     pg_status status = PG_OK;
     abaqus_range *last = set->n ? &set->range[set->n - 1] : NULL;
-    /* Entries that must exist and those that need not are kept apart. */
+    /* Members that must exist (line > 0) and those that need not are not joined to one range. */
     if (last && last->step == 1 && range.step == 1 && range.first == range.last
         && range.first == last->last + 1 && !last->line == !range.line) {
         last->last = range.last;
@@ -56,19 +56,19 @@ void abaqus_sets_free (abaqus_sets *sets)
 }
 
 /* ---- what is in a set ---------------------------------------------------------------------------------- */
-/* The members of one set, collected as places in the list of all nodes or all elements. */
+/* The members of one set, collected as indices into the list of all nodes or all elements. */
 typedef struct {
     /* "node" or "element", for messages. */
     const char *what;
     const abaqus_sets *sets;
-    /* Finds a place by its number. */
+    /* Finds the index of a number in the list id of all numbers. */
     pg_id_table table;
     const long *id;
-    /* How many there are in the file, and in the set. */
+    /* How many nodes or elements the file has, and the set. */
     size_t   all, n;
-    /* Places of those in the set (n). */
+    /* Indices of the members of the set (n). */
     int     *place;
-    /* in: 1 for places in the set (all). seen: 1 for sets that have been visited. */
+    /* in: 1 for nodes or elements in the set (all). seen: 1 for sets that have been visited (sets->n). */
     unsigned char *in, *seen;
     /* Sets to be visited. */
     int     *todo;
@@ -100,7 +100,7 @@ done:
     return status;
 }
 
-/* Adds a place, once; -1 adds nothing. */
+/* Adds index `place` to the set, unless it is in it already; -1 adds nothing. */
 static void put (gather *g, long place)
 {
     if (place < 0 || g->in[place]) return;
@@ -115,8 +115,8 @@ static void forget (gather *g)
     g->n = 0;
 }
 
-/* The fault of a member that does not exist. Lines are not named where files were included, as they might
- * belong to any of these. */
+/* Returns the fault that a member of a set does not exist. The line is not named if files were included, as
+ * it might belong to any of these. */
 static pg_status fault (const resolver *r, long line, const char *what, long id, const char *set)
 {
     char at[32] = "";
@@ -125,7 +125,7 @@ static pg_status fault (const resolver *r, long line, const char *what, long id,
                      set);
 }
 
-/* Is it the number of an element that was passed over? */
+/* 1 if id is the number of an element that was skipped. */
 static int is_skipped (const resolver *r, const gather *g, long id)
 {
     const abaqus_set *s = &r->a->skipped;
@@ -140,7 +140,7 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
     size_t count = range->last < range->first
                        ? 0
                        : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
-    /* More numbers than there are: one is missing, the first of which is named. */
+    /* The range has more numbers than the file: at least one is missing, and the first such is reported. */
     if (count > g->all && range->line) {
         for (long id = range->first; id <= range->last; id++)
             if (pg_id_table_find (&g->table, id) < 0 && !is_skipped (r, g, id))
@@ -242,7 +242,8 @@ done:
     return status;
 }
 
-/* Node sets; and the nodes of element sets that are neither blocks nor have the name of a node set. */
+/* Gives the builder the node sets, and the nodes of element sets that are neither blocks nor have the name of
+ * a node set. */
 static pg_status resolve_sets (resolver *r)
 {
     pg_status status = PG_OK;
@@ -271,7 +272,7 @@ static int top_dimension (const pg_mesh_given *m)
     return dim;
 }
 
-/* The elements of one line of a surface. */
+/* Collects the elements that one line of a surface names. */
 static pg_status collect_face (resolver *r, const abaqus_surface *surface, const abaqus_face *face)
 {
     if (face->set >= 0) return collect (r, &r->element, face->set);
@@ -293,8 +294,8 @@ static int side_of (const resolver *r, const abaqus_face *face, int place, int d
     return side != -2 && pg_element_types[kind].dim < dim ? -1 : side;
 }
 
-/* A surface with a face that is not known would be another surface without it: all of it is passed over, and
- * a scene that names it finds no such set. */
+/* *whole becomes 0 if a face of the surface is unknown: the whole surface is then skipped rather than made
+ * incomplete, and a scene that names it finds no such set. */
 static pg_status whole_surface (resolver *r, const abaqus_surface *surface, int dim, int *whole)
 {
     pg_status status = PG_OK;

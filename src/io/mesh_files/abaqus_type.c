@@ -50,11 +50,11 @@ static const char *const known = "C3D4|C3D5|C3D6|C3D8|C3D10|C3D15|C3D20|CPS3|CPS
                                  "C2D3|C2D4|C2D6|C2D8|M3D3|M3D4|M3D6|M3D8|"
                                  "S3|S4|S6|S8|T2D2|T3D2|T3D3|B31|B32";
 
-/* May this follow a base name? R reduced, I incompatible modes, H hybrid, M modified, T, P, E coupled
- * fields, S; 5 of S4R5. */
+/* 1 if these letters may follow the base name of a type: R reduced, I incompatible modes, H hybrid, M
+ * modified, T, P, E coupled fields, S; 5 of S4R5. */
 static int is_variant (const char *s) { return s[strspn (s, "RIHMTPES5")] == 0 && strlen (s) <= 4; }
 
-/* The longest base name that fits counts. */
+/* The type is that of the longest base name with which the name begins. */
 int abaqus_find_type (const char *name, abaqus_type *type, char near[32])
 {
     static const char *const points[] = { "MASS",   "ROTARYI", "SPRING", "DASHPOT", "GAP",

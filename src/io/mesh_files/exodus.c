@@ -6,8 +6,8 @@
  * node_ns1, ns_prop1, ns_names; elem_ss1, side_ss1, ss_prop1, ss_names; node_num_map, elem_num_map;
  * time_whole, name_nod_var, vals_nod_var1.
  *
- * Nodes and elements go by their place in the file while it is read; the numbers that node_num_map and
- * elem_num_map give them are assigned last. */
+ * Nodes and elements are numbered 1, 2, ... by their order in the file while it is read; the numbers that
+ * node_num_map and elem_num_map give them are assigned last. */
 #include "format.h"
 #include "perigal/netcdf.h"
 #include <ctype.h>
@@ -23,13 +23,13 @@ enum { NAME = 256 };
 typedef struct {
     const char *path;
     pg_netcdf  *file;
-    /* Numbers of nodes, elements and blocks; size of the file. */
+    /* Numbers of nodes, elements and blocks; size of the file in bytes. */
     size_t nnode, n, nblock, bytes;
     /* Receives the mesh; NULL while fields are read. */
     pg_mesh_builder *builder;
-    /* 1: sides 1 and 2 of this element are its faces, as of shells (n). */
+    /* 1: this element is a shell, whose sides 1 and 2 are its top and bottom (n). */
     unsigned char *shell;
-    /* 1: this element is of a type that is not known, and is passed over (n). */
+    /* 1: this element is of an unknown type and is skipped (n). */
     unsigned char *foreign;
 } reader;
 
@@ -217,7 +217,7 @@ done:
     return status;
 }
 
-/* The numbers that the file gives its blocks (eb_prop1); their places where it gives none, or one twice. */
+/* Reads the numbers of the blocks (eb_prop1); they become 1, 2, ... if the file gives none, or one twice. */
 static pg_status block_numbers (reader *r, long **id)
 {
     pg_status status = PG_OK;
@@ -234,7 +234,7 @@ done:
     return status;
 }
 
-/* Elements of block k, whose number is `group`; *first: number of elements before it, updated. */
+/* Reads the elements of block k, whose number is `group`; *first: number of elements before it, updated. */
 static pg_status read_block (reader *r, size_t k, long group, size_t *first)
 {
     pg_status status = PG_OK;
@@ -268,7 +268,7 @@ done:
     return status;
 }
 
-/* Results of Perigal and of other meshfree codes hold points only, each as an element: that is no mesh. */
+/* PG_E_FILE if all elements are points: results of Perigal and of other meshfree codes are no meshes. */
 static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
@@ -281,7 +281,7 @@ done:
     return status;
 }
 
-/* Node sets with their names and numbers. */
+/* Reads the node sets with their names and numbers. */
 static pg_status read_node_sets (reader *r)
 {
     pg_status status = PG_OK;
@@ -307,7 +307,8 @@ done:
     return status;
 }
 
-/* Sides of shells: 1 and 2 are the faces (no sides of a plane element), 3 and on the edges. */
+/* Adds a side (numbered from 1) of an element to the present side set. Sides 1 and 2 of a shell, its top and
+ * bottom, are left out, as they are no edges of the 2D element. */
 static pg_status add_side (const reader *r, long element, long side)
 {
     pg_status status = PG_OK;
@@ -324,7 +325,7 @@ done:
     return status;
 }
 
-/* Side sets with their names and numbers. */
+/* Reads the side sets with their names and numbers. */
 static pg_status read_side_sets (reader *r)
 {
     pg_status status = PG_OK;
@@ -364,7 +365,8 @@ done:
     return status;
 }
 
-/* Fields of nodes and elements are no part of a mesh. */
+/* Reports the variables of nodes, of elements and of the whole file as skipped: they are no part of a
+ * mesh. */
 static pg_status pass_results (const reader *r)
 {
     pg_status status = PG_OK;
@@ -400,7 +402,7 @@ static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
     if (first < r.n)
         PG_FAIL (PG_E_FILE, "%.400s: its blocks have %zu of the %zu elements of the file", r.path, first,
                  r.n);
-    /* Sets refer to nodes and elements by place; all get their numbers in the end. */
+    /* Sets refer to nodes and elements by their order in the file, which `renumber` replaces in the end. */
     PG_TRY (check_points (&r));
     PG_TRY (read_node_sets (&r));
     PG_TRY (read_side_sets (&r));
@@ -412,7 +414,7 @@ done:
     return status;
 }
 
-/* Classic netCDF (versions 1, 2, 5) and HDF5. */
+/* 1 if the file begins like classic netCDF (versions 1, 2, 5) or HDF5. */
 static int knows_exodus (const mesh_file *file)
 {
     return file->size > 8
@@ -421,7 +423,7 @@ static int knows_exodus (const mesh_file *file)
 }
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
-/* A nodal variable. part: which component its suffix names, -1: it has no suffix. */
+/* A nodal variable. base: its name without suffix; part: component that the suffix names, -1: no suffix. */
 typedef struct { char base[NAME]; int part, var; } variable;
 
 /* Splits "stress_xy" into "stress" and 3; components of vectors are 10 and on. */
@@ -447,8 +449,8 @@ static int together (const variable *a, const variable *b)
 /* Components that a field has in a mesh; those that the file leaves out stay 0. */
 static int components_of (const variable *v) { return v->part < 0 ? 1 : v->part >= 10 ? 3 : 6; }
 
-/* Values of one variable in one step, into its component of the field; at: place in the file of each node;
- * work: room for all nodes of the file. */
+/* Reads the values of one variable in one step into its component of the field; at: index in the file of each
+ * node of the mesh; work: room for all nodes of the file. */
 static pg_status read_values (const reader *r, const variable *v, size_t step, const pg_mesh *mesh,
                               const int *at, double *work, pg_mesh_field *field)
 {
@@ -466,7 +468,7 @@ done:
     return status;
 }
 
-/* Names and variables of all n nodal variables. */
+/* Lists all n nodal variables: name without suffix, component, netCDF variable. */
 static pg_status list_variables (const reader *r, size_t steps, size_t n, variable *v)
 {
     pg_status status = PG_OK;
@@ -484,7 +486,7 @@ done:
     return status;
 }
 
-/* at[i]: place in the file of node i of the mesh. */
+/* Sets at[i] to the index in the file of node i of the mesh. */
 static pg_status find_nodes (const reader *r, const pg_mesh *mesh, int *at)
 {
     pg_status status = PG_OK;
@@ -543,7 +545,7 @@ static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mes
     PG_TRY (open_file (&r, file));
     size_t steps = pg_netcdf_length (r.file, "time_step"), n = pg_netcdf_length (r.file, "num_nod_var");
     if (n > r.bytes) PG_FAIL (PG_E_FILE, "%.400s: %zu variables are more than it can hold", r.path, n);
-    /* Steps without nodal variables are no steps here. */
+    /* A file without nodal variables counts as one without steps. */
     PG_TRY (mesh_fields_step (r.path, n ? steps : 0, step, &chosen));
     PG_ALLOC (v, n);
     PG_TRY (list_variables (&r, steps, n, v));

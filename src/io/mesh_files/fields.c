@@ -22,7 +22,7 @@ done:
     return status;
 }
 
-/* A file without fields is a fault of its own. */
+/* A file without steps is a fault of the file (PG_E_FILE), not of the caller. */
 pg_status mesh_fields_step (const char *path, size_t steps, int step, size_t *out)
 {
     pg_status status = PG_OK;
@@ -35,7 +35,7 @@ done:
     return status;
 }
 
-/* In a plane mesh vectors keep two of their three components. */
+/* In a 2D mesh vectors keep two of their three components. */
 static void flatten_vectors (const pg_mesh *mesh, mesh_fields *f)
 {
     for (size_t k = 0; k < f->n && mesh->dim == 2; k++) {

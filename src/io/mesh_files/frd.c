@@ -25,13 +25,13 @@ typedef struct {
     long   number, nodes;
     /* Format of the values of the block, and number of components that are stored. */
     int    format, components;
-    /* Where the values begin. */
+    /* Position in the file at which the values begin. */
     mesh_cursor data;
 } block;
 
 /* State of the reader. */
 typedef struct {
-    /* Place in the file. */
+    /* Position in the file. */
     mesh_cursor    c;
     /* The present line. */
     const char    *first, *last;
@@ -56,7 +56,7 @@ static int column (const reader *r, size_t at, size_t width, const char **s, con
     return *s < *end;
 }
 
-/* A whole or real number in these columns; 0: there is none. */
+/* Reads an integer or a real number from columns [at, at + width) of the line; 0: there is none. */
 static int whole (const reader *r, size_t at, size_t width, long *value)
 {
     const char *s, *end;
@@ -69,7 +69,7 @@ static int real (const reader *r, size_t at, size_t width, double *value)
     return column (r, at, width, &s, &end) && mesh_real (&s, end, value) && s == end;
 }
 
-/* A word in these columns, "" where there is none. */
+/* Copies the word in columns [at, at + width) of the line to text; "" where there is none. */
 static void word (const reader *r, size_t at, size_t width, char *text, size_t size)
 {
     const char *s = "", *end = s;
@@ -92,7 +92,7 @@ static int is_key (const reader *r, const char *key)
 /* Columns of a number of a node or element: 5 in short blocks, 10 in long ones. */
 static size_t id_width (int format) { return format == SHORT ? 5 : 10; }
 
-/* Takes n bytes behind the line; NULL where the file is shorter. */
+/* Returns the address of the next n bytes and moves behind them; NULL where the file is shorter. */
 static const char *bytes (reader *r, size_t n)
 {
     const char *at = r->c.at;
@@ -101,7 +101,7 @@ static const char *bytes (reader *r, size_t n)
     return at;
 }
 
-/* Binary numbers, in the byte order of the machine. */
+/* Read binary numbers in the byte order of the machine: a 32-bit integer, a float or a double. */
 static long int_at (const char *p)
 {
     int32_t v;
@@ -118,7 +118,7 @@ static double real_at (const char *p, int format)
     return format == DOUBLES ? d : (double) f;
 }
 
-/* Number of items and format, at the end of the line that begins a block. */
+/* Reads number of items and format from columns `at` and `format_at` of the line that begins a block. */
 static pg_status block_head (const reader *r, const char *what, size_t at, size_t format_at, long *n,
                              int *format)
 {
@@ -134,7 +134,7 @@ done:
 }
 
 /* ---- nodes --------------------------------------------------------------------------------------------- */
-/* n nodes: number and three coordinates each. */
+/* Reads n nodes in binary form: number and three coordinates each. */
 static pg_status binary_nodes (reader *r, long n, int format)
 {
     pg_status status = PG_OK;
@@ -150,7 +150,7 @@ done:
     return status;
 }
 
-/* A block of nodes. */
+/* Reads a block of nodes. */
 static pg_status read_nodes (reader *r)
 {
     pg_status status = PG_OK;
@@ -178,12 +178,12 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
-/* Kinds 1 to 12 of cgx; their nodes are in the order of Exodus. */
+/* Elements by their kind in cgx, 1 to 12; their nodes are in the order of Exodus. */
 static const pg_element kinds[] = { PG_ELEMENTS, PG_HEX8, PG_WEDGE6, PG_TET4,  PG_HEX20, PG_WEDGE15, PG_TET10,
                                     PG_TRI3,     PG_TRI6, PG_QUAD4,  PG_QUAD8, PG_BAR2,  PG_BAR3 };
 
 
-/* The element of that kind; others are a fault. */
+/* Converts the kind of an element, 1 to 12 as in cgx; other numbers are a fault. */
 static pg_status check_kind (const reader *r, long id, long kind, pg_element *out)
 {
     pg_status status = PG_OK;
@@ -193,7 +193,7 @@ done:
     return status;
 }
 
-/* n elements: number, kind, group, material, nodes. */
+/* Reads n elements in binary form: number, kind, group, material, nodes. */
 static pg_status binary_elements (reader *r, long n)
 {
     pg_status status = PG_OK;
@@ -215,7 +215,7 @@ done:
     return status;
 }
 
-/* An element on several lines. */
+/* Reads an element in text form, which takes several lines. */
 static pg_status text_element (reader *r, int format)
 {
     pg_status status = PG_OK;
@@ -239,7 +239,7 @@ done:
     return status;
 }
 
-/* A block of elements. */
+/* Reads a block of elements. */
 static pg_status read_elements (reader *r)
 {
     pg_status status = PG_OK;
@@ -257,7 +257,7 @@ done:
 }
 
 /* ---- results ------------------------------------------------------------------------------------------- */
-/* Goes behind the values of a block. */
+/* Moves the reader behind the values of a block. */
 static pg_status skip_values (reader *r, const block *b)
 {
     pg_status status = PG_OK;
@@ -274,8 +274,8 @@ done:
     return status;
 }
 
-/* Notes name, step and place of a block of results; components that the viewer computes are not stored in
- * it. */
+/* Stores name, step and position of a block of results, and skips its values; components that the viewer
+ * computes have no values in the file. */
 static pg_status read_block (reader *r)
 {
     pg_status status = PG_OK;
@@ -288,7 +288,7 @@ static pg_status read_block (reader *r)
     if (!next (r) || !is_key (r, " -4") || !whole (r, 13, 5, &n) || n < 1 || n > MOST_COMPONENTS)
         MESH_FAIL (&r->c, "a block of results begins with its name and 1 to %d components", MOST_COMPONENTS);
     word (r, 5, 8, b.name, sizeof b.name);
-    /* then there is a line for each component; those that the viewer computes are marked by a 1. */
+    /* and each component has a line, with a 1 if it is not stored but computed by the viewer. */
     for (given = 0; given < n; given++) {
         if (!next (r) || !is_key (r, " -5"))
             MESH_FAIL (&r->c, "%s has %ld of %ld components", b.name, given, n);
@@ -332,7 +332,8 @@ done:
     return status;
 }
 
-/* The first line is a header, a line of the user's, or a block of nodes. */
+/* 1 if the first line is a header ("1C"), a line of the user's ("1U") or the head of a block of nodes
+ * ("2C"). */
 static int knows_frd (const mesh_file *file)
 {
     return file->size > 6
@@ -340,7 +341,7 @@ static int knows_frd (const mesh_file *file)
                || !memcmp (file->text, "    1U", 6));
 }
 
-/* Results are passed over while the mesh is read; their places are not kept. */
+/* Results are skipped while the mesh is read. */
 static pg_status read_frd (pg_mesh_builder *m, const mesh_file *file)
 {
     reader r = { .c = mesh_begin (file), .builder = m };
@@ -356,7 +357,7 @@ static int same_step (const block *a, const block *b)
     return a->value == b->value && a->number == b->number;
 }
 
-/* Number and values of the next node; *more = 0: there is none. */
+/* Reads number and values of the next node of a block; *more = 0: there is none. */
 static pg_status next_values (reader *r, const block *b, long *id, double *value, int *more)
 {
     pg_status status = PG_OK;
@@ -383,7 +384,7 @@ done:
     return status;
 }
 
-/* The field's name here: displacement, stress, strain, else as in the file. */
+/* Name that Perigal gives a field: displacement, stress, strain, else that in the file. */
 static const char *field_name (const char *name)
 {
     /* DISP, STRESS and TOSTRAIN are CalculiX's names of displacements, stresses and total strains. */
@@ -393,8 +394,8 @@ static const char *field_name (const char *name)
                                             : name;
 }
 
-/* One field. Nodes that the mesh does not use are passed over; a node of the mesh without a value is a
- * fault. */
+/* Reads one field. Nodes that the mesh does not use are skipped; a node of the mesh without a value is a
+ * fault. have: scratch space, one byte per node of the mesh. */
 static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const pg_id_table *nodes, reader *r,
                              const block *b, unsigned char *have)
 {

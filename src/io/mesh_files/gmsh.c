@@ -79,7 +79,7 @@ int gmsh_section (gmsh_reader *g, char name[64])
     return 0;
 }
 
-/* In binary files by searching for the bytes, in text line by line. */
+/* The end of the section is searched for byte by byte in binary files, line by line in text files. */
 pg_status gmsh_skip (gmsh_reader *g, const char *name)
 {
     pg_status status = PG_OK;
@@ -101,7 +101,7 @@ done:
     return status;
 }
 
-/* What stands there instead goes into the message. */
+/* If another line follows, the message quotes it. */
 pg_status gmsh_end (gmsh_reader *g, const char *name)
 {
     pg_status status = PG_OK;
@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-/* What stands behind them on the line is ignored. */
+/* The rest of the line, behind the n numbers, is ignored. */
 pg_status gmsh_wholes (gmsh_reader *g, const char *what, int n, long *value)
 {
     pg_status status = PG_OK;
@@ -152,7 +152,7 @@ done:
     return status;
 }
 
-/* Lines: dimension, number, "name". */
+/* Each line of the section has dimension, number and "name" of a group. */
 pg_status gmsh_names (gmsh_reader *g)
 {
     pg_status status = PG_OK;
@@ -179,15 +179,16 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
-/* Orders of nodes: Gmsh numbers the middles of edges differently in tetrahedra, hexahedra and wedges. */
+/* Position in Gmsh's list of nodes of node k in the order of Exodus: middle nodes of edges and faces differ
+ * in tetrahedra, hexahedra and wedges. */
 static const signed char same_order[PG_ELEMENT_NODES] = { 0, 1, 2, 3, 4, 5, 6, 7, 8 };
 static const signed char tet_order[10] = { 0, 1, 2, 3, 4, 5, 6, 7, 9, 8 };
 static const signed char hex_order[27] = { 0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  10, 12,
                                            14, 15, 16, 18, 19, 17, 26, 20, 25, 22, 23, 21, 24 };
 static const signed char wedge_order[15] = { 0, 1, 2, 3, 4, 5, 6, 9, 7, 8, 10, 11, 12, 14, 13 };
 
-/* Types by the numbers of the manual; what is not known, such as pyramids of second order, is passed over,
- * with known = 0. */
+/* Element types by their numbers in Gmsh's manual; unknown ones, such as pyramids of second order, get known
+ * = 0 and are skipped. */
 pg_status gmsh_kind (gmsh_reader *g, long type, long element, int dim, long group, gmsh_type *out)
 {
     pg_status status = PG_OK;
@@ -218,7 +219,7 @@ pg_status gmsh_kind (gmsh_reader *g, long type, long element, int dim, long grou
               "order 1",
               g->c.file->path, gmsh_at (g, at), element, what, type);
     *out = (gmsh_type) { .known = 0, .nodes = named ? other[k].nodes : 0 };
-    if (g->binary && !out->nodes)                      /* nobody knows where the next one begins */
+    if (g->binary && !out->nodes)                      /* its length is not known either */
         PG_FAIL (PG_E_FILE, "%s", words);
     pg_mesh_builder_group_name (g->m, dim, group, block);
     PG_TRY (pg_mesh_builder_foreign (g->m, named ? strchr (what, ' ') + 1 : "of another kind", block, words));
@@ -226,7 +227,7 @@ done:
     return status;
 }
 
-/* A negative group only says that the element is seen from the other side. */
+/* A negative group number only says that the orientation is reversed: the group is its absolute value. */
 pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const long *node, long group,
                         long line)
 {
@@ -236,7 +237,7 @@ pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const lo
 }
 
 /* ---- binary numbers ------------------------------------------------------------------------------------ */
-/* By division, as a product of counts from a file could overflow. */
+/* The test divides, because a product of counts from a file could overflow. */
 pg_status gmsh_has_left (gmsh_reader *g, const char *what, size_t n, size_t size)
 {
     pg_status status = PG_OK;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* ---- text ---------------------------------------------------------------------------------------------- */
-/* Lines: number x y z. */
+/* Reads n nodes, one per line: number x y z. */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -24,7 +24,7 @@ done:
     return status;
 }
 
-/* A line: number, type, number of tags, tags, nodes; the first tag is the group. */
+/* Reads an element from a line: number, type, number of tags, tags, nodes; the first tag is the group. */
 static pg_status element_of_text (gmsh_reader *g, const char *at, const char *last)
 {
     pg_status status = PG_OK;
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* One element per line. */
+/* Reads n elements, one per line. */
 static pg_status elements_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -65,8 +65,8 @@ done:
 }
 
 /* ---- binary -------------------------------------------------------------------------------------------- */
-/* Number and coordinates; parametric nodes have parameters on their curve or surface behind, which are
- * skipped. */
+/* Reads n nodes in binary form: number and coordinates, behind which parametric nodes have their parameters
+ * on a curve or surface; these are skipped. */
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
 {
     pg_status status = PG_OK;
@@ -88,7 +88,8 @@ done:
     return status;
 }
 
-/* Elements of one type and one number of tags: number, tags, nodes of each. */
+/* Reads a block of elements of one type and one number of tags in binary form: number, tags, nodes of each.
+ * *left: elements of the file that are still to be read. */
 static pg_status block_of_bytes (gmsh_reader *g, long *left)
 {
     pg_status status = PG_OK;
@@ -99,7 +100,7 @@ static pg_status block_of_bytes (gmsh_reader *g, long *left)
         GMSH_FAIL (g, "a block of %d elements with %d tags each where %ld elements are left", n, tags, *left);
     PG_TRY (gmsh_has_left (g, "tags", (size_t) tags, 4));
     PG_TRY (gmsh_has_left (g, "an element", 1, 4));
-    /* Number and group of the first element, for what is told of an unknown type. */
+    /* Number and group of the first element, for the message about an unknown type. */
     gmsh_reader peek = *g;
     long first = gmsh_int (&peek), own = 0;
     if (tags > 0) {

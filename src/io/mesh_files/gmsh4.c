@@ -15,7 +15,7 @@ typedef struct { long dim, tag; size_t first, n; } entity;
 /* State of the reader: entities (nentity), and the groups of all entities (ngroup). */
 typedef struct {
     gmsh_reader g;
-    /* parted: the section is that of partitions */
+    /* 1 while the section $PartitionedEntities is read */
     int     parted;
     size_t  nentity, entity_cap, ngroup, group_cap;
     entity *entities;
@@ -32,9 +32,10 @@ done:
     return status;
 }
 
-/* Groups of one entity at most: an element is given once for each. */
+/* Largest number of groups of one entity, since the builder gets each element once for each group. */
 enum { MOST_GROUPS = 100 };
-/* A negative number says that the entity is seen from the other side: only its size names the group. */
+/* Adds a group to the last entity. A negative number says that the orientation is reversed: the group is its
+ * absolute value. */
 static pg_status add_group (reader *r, long group)
 {
     pg_status status = PG_OK;
@@ -42,16 +43,16 @@ static pg_status add_group (reader *r, long group)
     if (e->n == MOST_GROUPS)
         GMSH_FAIL (&r->g, "entity %ld belongs to more than %d groups", e->tag, MOST_GROUPS);
     PG_GROW (r->group, r->group_cap, r->ngroup + 1);
-    r->group[r->ngroup++] = labs (group);                  /* a negative number: seen from the other side */
+    r->group[r->ngroup++] = labs (group);                  /* negative: reversed orientation */
     e->n++;
 done:
     return status;
 }
 
 /* ---- entities ------------------------------------------------------------------------------------------ */
-/* Behind the tag of a part of an entity: the entity that it is a part of (dimension, tag), and the partitions
- * that it belongs to. What lies between partitions has less dimensions than its entity, whose groups it has
- * without being meant: *between 1. */
+/* Reads, behind the tag of a part of an entity, its parent entity (dimension, tag) and the partitions that it
+ * belongs to. *between 1: it is an interface between partitions, of lower dimension than its parent, and the
+ * groups listed for it do not apply to it. */
 static pg_status parts_of_text (gmsh_reader *g, const char **at, const char *last, long tag, int dim,
                                 int *between)
 {
@@ -68,7 +69,8 @@ done:
     return status;
 }
 
-/* Parent and partitions of a part of an entity in a binary file; *between 1: it lies between partitions. */
+/* Reads parent and partitions of a part of an entity in a binary file; *between 1: it is an interface between
+ * partitions. */
 static pg_status parts_of_bytes (gmsh_reader *g, int dim, int *between)
 {
     pg_status status = PG_OK;
@@ -82,7 +84,8 @@ done:
     return status;
 }
 
-/* A line: tag, box (of points: position), groups, and what bounds it, which is not read. */
+/* Reads an entity from a line: tag, bounding box (of points: position), groups; the entities that bound it,
+ * which follow, are not read. */
 static pg_status entity_of_text (reader *r, int dim)
 {
     pg_status status = PG_OK;
@@ -110,7 +113,8 @@ done:
     return status;
 }
 
-/* An entity in a binary file: tag, box, groups, and what bounds it, which is not read. */
+/* Reads an entity from a binary file: tag, bounding box and groups; the entities that bound it are
+ * skipped. */
 static pg_status entity_of_bytes (reader *r, int dim)
 {
     pg_status status = PG_OK;
@@ -139,7 +143,7 @@ done:
     return status;
 }
 
-/* By dimension, then tag. */
+/* Orders entities by dimension, then by tag. */
 static int by_entity (const void *p, const void *q)
 {
     const entity *a = p, *b = q;
@@ -147,7 +151,7 @@ static int by_entity (const void *p, const void *q)
     return (a->tag > b->tag) - (a->tag < b->tag);
 }
 
-/* Number of partitions, and ghost entities (tag, partition), which other programs need. */
+/* Skips the number of partitions and the ghost entities (tag, partition), which are not needed. */
 static pg_status skip_ghosts (gmsh_reader *g)
 {
     pg_status status = PG_OK;
@@ -168,7 +172,7 @@ done:
     return status;
 }
 
-/* Section $Entities or, if parted, $PartitionedEntities, sorted for the search. */
+/* Reads section $Entities or, if parted, $PartitionedEntities, and sorts the entities for the search. */
 static pg_status read_entities (reader *r, int parted)
 {
     pg_status status = PG_OK;
@@ -191,7 +195,8 @@ done:
 }
 
 /* ---- blocks -------------------------------------------------------------------------------------------- */
-/* Four numbers before the blocks of a section: blocks, members, lowest and highest number of a member. */
+/* Reads the four numbers before the blocks of a section: number of blocks, number of nodes or elements
+ * (members), their lowest and highest number. */
 static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, long *members)
 {
     pg_status status = PG_OK;
@@ -207,7 +212,8 @@ done:
     return status;
 }
 
-/* Dimension and tag of the entity, a third number (nodes: parametric; elements: type), number of members. */
+/* Reads the head of a block: dimension and tag of the entity, a third number (nodes: 1 if parametric;
+ * elements: type), number of members, which is subtracted from *left. */
 static pg_status block_head (gmsh_reader *g, const char *what, long head[4], long *left)
 {
     pg_status status = PG_OK;
@@ -225,7 +231,8 @@ done:
 }
 
 /* ---- nodes --------------------------------------------------------------------------------------------- */
-/* First all numbers, then all positions: a second reader, `number`, follows behind. */
+/* Reads n nodes: the file lists all numbers, then all positions; a second reader, `number`, reads the
+ * numbers. */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -245,7 +252,8 @@ done:
     return status;
 }
 
-/* n nodes in a binary file: all numbers, then all positions, `parameters` numbers behind each are skipped. */
+/* Reads n nodes from a binary file: all numbers, then all positions; the `parameters` numbers behind each
+ * position are skipped. */
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
 {
     pg_status status = PG_OK;
@@ -283,7 +291,8 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
-/* Once for each group of the entity; the builder recognises repeated elements. */
+/* Gives the builder an element once for each group of its entity; the builder recognises repeated
+ * elements. */
 static pg_status add_element (reader *r, const entity *e, const gmsh_type *t, long id, const long *node,
                               long line)
 {
@@ -295,7 +304,7 @@ done:
     return status;
 }
 
-/* A line: number, nodes. */
+/* Reads an element from a line: number, nodes. */
 static pg_status element_of_text (reader *r, const entity *e, const gmsh_type *t)
 {
     pg_status status = PG_OK;
@@ -314,7 +323,7 @@ done:
     return status;
 }
 
-/* n elements of one type: number and nodes of 8 bytes each. */
+/* Reads n elements of one type from a binary file: number and nodes of 8 bytes each. */
 static pg_status elements_of_bytes (reader *r, const entity *e, const gmsh_type *t, long n)
 {
     pg_status status = PG_OK;
@@ -338,7 +347,7 @@ static long first_number (const gmsh_reader *g)
     return g->c.end - g->c.at >= 8 ? gmsh_long (&ahead) : 0;
 }
 
-/* A block of elements of one entity and one type. */
+/* Reads a block of elements of one entity and one type. */
 static pg_status read_block (reader *r, long *left)
 {
     pg_status status = PG_OK;

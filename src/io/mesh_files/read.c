@@ -43,7 +43,7 @@ done:
     return status;
 }
 
-/* The fault of a file that no format knows. */
+/* Returns the fault of a file that no format recognises; the message lists the formats. */
 static pg_status unknown (const mesh_file *file)
 {
     char names[400] = "";

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields as XML files of VTK, for ParaView and all that reads its formats:
+ * Writes fields as VTK XML files, for ParaView and other readers. A moment is an output time:
  *
- *   result.0007.vtu          moment 7: points as vertices, values as they are in memory behind the XML
- *   result.0007.3.vtu        those of rank 3, where ranks divide the points; result.0007.pvtu names them all
+ *   result.0007.vtu          moment 7: points as vertices; values in binary form behind the XML
+ *   result.0007.3.vtu        points of rank 3, if ranks divide the points; result.0007.pvtu names all parts
  *   result.0007.cracks.vtu   faces of cracks that have grown at that moment, once the run has ended
  *   result.pvd               the list of all moments with their times, which is what a reader opens
  *
  * A moment is written under another name, moved to its place when it is whole, and then added to the list by
  * one write over the list's end, so that the list is whole at any instant and names nothing that is not
- * there. Moments in parts may have been divided differently: each names its own. */
+ * there. Moments may be divided into parts differently (after a restart): each .pvtu names its own parts. */
 #include "disk.h"
 #include "entries.h"
 #include "exodus.h"
@@ -32,13 +32,13 @@
 static const char data_end[] = "\n</AppendedData>\n</VTKFile>\n";
 static const char list_end[] = "</Collection>\n</VTKFile>\n";
 
-/* How the places of the points are described. */
+/* Describes the array of point coordinates in the XML. */
 static const pg_field_view places = { "Points", "m", 3, NULL };
-/* Longest path; cells by their numbers of nodes, which are vertices, lines, triangles. */
+/* Longest path; VTK's numbers of cell types, by the number of nodes: 1 vertex, 2 line, 3 triangle. */
 enum { PATH = 4096 };
 static const unsigned char cell_kind[] = { 0, 1, 3, 5 };
 
-/* Points with values, in cells of `each` points that follow one another. */
+/* n points at x (n x dim, m) with nview fields; each run of `each` consecutive points is a cell. */
 typedef struct {
     int    dim, each;
     size_t n, nview;
@@ -49,25 +49,25 @@ typedef struct {
 /* An open result. */
 typedef struct {
     const pg_field_request *request;
-    /* The list: file descriptor, -1: another rank has it; bytes before its end. */
+    /* The list result.pvd: file descriptor (-1: another rank writes it); bytes before its closing tags. */
     int    file;
     long   bytes;
-    /* Moments that are written, and those of them that were synced. */
+    /* Numbers of moments that are written, and of those that are synced to the disk. */
     long   moments, synced;
-    /* Views of the fields, volume and block, and values of the last (n). */
+    /* Views of the fields, of the volume and of the block number (nfield + 2); block numbers (n). */
     pg_field_view *view;
     double *block;
     char   list[PATH];
 } result;
 
 /* ---- a grid -------------------------------------------------------------------------------------------- */
-/* Values a point in the file: readers know vectors by their three components. */
+/* Components of a field in the file: a vector gets three, by which readers recognise it. */
 static int shown (const pg_field_view *v, int dim)
 {
     return v->components > 1 && v->components == dim ? 3 : v->components;
 }
 
-/* Bytes of an array behind the XML: their number, then the values. */
+/* Bytes of an array of n values in the binary data: 8 for its length, then `bytes` per value. */
 static uint64_t size_of (uint64_t n, uint64_t bytes) { return 8 + n * bytes; }
 
 static uint64_t size_of_view (const grid *g, const pg_field_view *v)
@@ -75,7 +75,7 @@ static uint64_t size_of_view (const grid *g, const pg_field_view *v)
     return size_of (g->n, sizeof (double) * (uint64_t) shown (v, g->dim));
 }
 
-/* Describes the values of a field; offset NULL: those of all parts. */
+/* Writes the XML element of a field. offset: of its array in the binary data; NULL: none, in a .pvtu file. */
 static void describe (FILE *f, const char *element, const pg_field_view *v, int dim, const uint64_t *offset)
 {
     char suffix[16];
@@ -90,7 +90,7 @@ static void describe (FILE *f, const char *element, const pg_field_view *v, int 
     fputs ("/>\n", f);
 }
 
-/* An array of the cells, of so many bytes, which *at moves behind. */
+/* Writes the XML element of an array of the cells at offset *at, and advances *at by its bytes. */
 static void describe_cells (FILE *f, const char *type, const char *name, uint64_t *at, uint64_t bytes)
 {
     fprintf (f, "<DataArray type=\"%s\" Name=\"%s\" format=\"appended\" offset=\"%llu\"/>\n", type, name,
@@ -98,7 +98,7 @@ static void describe_cells (FILE *f, const char *type, const char *name, uint64_
     *at += bytes;
 }
 
-/* The XML: what each array is and where it begins. */
+/* Writes the XML: what each array is and where it begins in the binary data. */
 static void put_head (FILE *f, const grid *g, double time)
 {
     uint64_t at = 0;
@@ -119,7 +119,7 @@ static void put_head (FILE *f, const grid *g, double time)
     fputs ("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", f);
 }
 
-/* n rows of `from` numbers as rows of `to` numbers, zeros behind them. */
+/* Writes an array: its bytes, then n rows of `from` numbers, each filled up with zeros to `to` numbers. */
 static void put_rows (FILE *f, size_t n, int from, int to, const double *value)
 {
     double row[EXODUS_COMPONENTS] = { 0 };
@@ -131,7 +131,7 @@ static void put_rows (FILE *f, size_t n, int from, int to, const double *value)
     }
 }
 
-/* The whole numbers first, first + step, ... */
+/* Writes an array: its bytes, then the n integers first, first + step, ... */
 static void put_sequence (FILE *f, size_t n, int64_t first, int64_t step)
 {
     uint64_t bytes = 8 * n;
@@ -152,7 +152,7 @@ static void put_data (FILE *f, const grid *g)
     for (size_t i = 0; i < cells; i++) fputc (cell_kind[g->each], f);
 }
 
-/* PATH.new is moved to its place if all of it is written. */
+/* Creates PATH.new (returned in `fresh`), which `settle` renames to PATH if all of it was written. */
 static pg_status create (FILE **f, char fresh[PATH + 8], const char *path)
 {
     snprintf (fresh, PATH + 8, "%s.new", path);
@@ -184,7 +184,7 @@ static pg_status write_grid (const char *path, const grid *g, double time)
 }
 
 /* ---- names --------------------------------------------------------------------------------------------- */
-/* The file of a moment in the folder; part < 0: the one that the list names. */
+/* Name of the file of a moment: that of a part, or, with part < 0, the one that result.pvd names. */
 static void name_of (char *out, size_t size, long moment, const pg_field_share *share, int part)
 {
     if (share && part >= 0) snprintf (out, size, "result.%04ld.%d.vtu", moment, part);
@@ -198,10 +198,10 @@ static void path_of (const result *r, char out[PATH], long moment, int part)
     snprintf (out, PATH, "%.4000s/%s", r->request->folder, name);
 }
 
-/* The part of this process; alone what the list names. */
+/* Number of the part of this process; 0 if it has all points. */
 static int own (const result *r) { return r->request->share ? r->request->share->part : 0; }
 
-/* 1: a file of a moment has this end of its name. */
+/* 1 if this text may follow "result.NUMBER." in the name of a file of a moment. */
 static int is_end (const char *end)
 {
     size_t digits = strspn (end, "0123456789");
@@ -211,7 +211,8 @@ static int is_end (const char *end)
     return strcmp (end, "vtu") == 0 || strcmp (end, "vtu.new") == 0;
 }
 
-/* Removes what belongs to moments from `first` on, and all that was made for the end of a run. */
+/* Removes the files of moments from `first` on, and all files of crack faces with their list
+ * result.pvd.new. */
 static void drop (const char *folder, long first)
 {
     struct dirent *entry;
@@ -231,7 +232,7 @@ static void drop (const char *folder, long first)
 }
 
 /* ---- the list ------------------------------------------------------------------------------------------ */
-/* Writes text over the end of the list, and its end behind it; if that fails the list is as it was. */
+/* Writes text over the closing tags of the list, and these behind it; if that fails the list is as it was. */
 static pg_status extend (result *r, const char *text)
 {
     char both[512];
@@ -240,7 +241,7 @@ static pg_status extend (result *r, const char *text)
     if (status == PG_OK) r->bytes += (long) n;
     else if (pwrite (r->file, list_end, strlen (list_end), r->bytes) > 0) {
         int cut = ftruncate (r->file, r->bytes + (long) strlen (list_end));
-        (void) cut;                                    /* what would stay is behind the end */
+        (void) cut;                                    /* if it failed: the rest is behind the tags */
     }
     return status;
 }
@@ -253,7 +254,8 @@ static pg_status begin_list (result *r)
     return status == PG_OK ? extend (r, head) : status;
 }
 
-/* Cuts the list to what it was, all of which must be there. */
+/* Opens the list to go on with it and cuts it to its length at the marks `at`. PG_E_FILE: the list is shorter
+ * than that, or the file of a moment is missing. */
 static pg_status open_list (result *r, const pg_field_marks *at)
 {
     pg_status status = PG_OK;
@@ -264,7 +266,7 @@ static pg_status open_list (result *r, const pg_field_marks *at)
     if (s.st_size < at->keep)
         PG_FAIL (PG_E_FILE, "%s has %ld bytes, %ld are missing: it was changed since", r->list,
                  (long) s.st_size, at->keep - (long) s.st_size);
-    for (long k = 0; k < at->moments; k++) {           /* whole or in parts, whoever wrote it */
+    for (long k = 0; k < at->moments; k++) {           /* written whole or in parts */
         snprintf (path, sizeof path, "%.3800s/result.%04ld.vtu", r->request->folder, k);
         if (access (path, F_OK) == 0) continue;
         snprintf (path, sizeof path, "%.3800s/result.%04ld.pvtu", r->request->folder, k);
@@ -288,7 +290,7 @@ static void close_result (void **self)
     *self = NULL;
 }
 
-/* Beside the fields each point has its volume and the number of its block. */
+/* Adds two fields to those of the run: the volume (m3) of each point and the number of its block. */
 static pg_status prepare_views (result *r)
 {
     pg_status status = PG_OK;
@@ -302,7 +304,7 @@ done:
     return status;
 }
 
-/* The first of several ranks has the list. */
+/* Of several ranks only rank 0 opens the list and removes what was written later. */
 static pg_status open_result (void **self, const pg_field_request *q, const pg_field_marks *at)
 {
     pg_status status = PG_OK;
@@ -325,7 +327,7 @@ done:
     return status;
 }
 
-/* Names the parts of a moment. */
+/* Writes the .pvtu file of a moment, which names the files of its parts. */
 static pg_status write_parts (const result *r, const char *path, long moment)
 {
     FILE *f;
@@ -365,7 +367,7 @@ static pg_status write_moment (void *self, long moment, double time, const pg_fi
         PG_TRY (extend (r, line));
     }
     r->moments = moment + 1;
-    if (r->synced > moment) r->synced = moment;        /* written again, since another rank could not */
+    if (r->synced > moment) r->synced = moment;        /* rewritten: another rank had failed */
 done:
     if (status != PG_OK) remove (mine), remove (whole);
     return status;
@@ -390,7 +392,8 @@ done:
 }
 
 /* ---- faces of cracks ----------------------------------------------------------------------------------- */
-/* The faces with the values of their points at the moments, one after the other. */
+/* n crack faces as a grid g. x: their corners (m); view, value: fields at the corners, and `exists`, at one
+ * moment after the other. */
 typedef struct {
     size_t n;
     const pg_crack_face *face;
@@ -418,7 +421,7 @@ done:
     return status;
 }
 
-/* Takes the values out of the file of a moment, whose last bytes they are. */
+/* Reads the values at the corners of the faces from the file of a moment, which ends with the arrays. */
 static pg_status take_values (faces *a, const result *r, long moment, double time)
 {
     pg_status status = PG_OK;
@@ -444,7 +447,7 @@ done:
     return status;
 }
 
-/* Writes the faces of every moment, and beside the list a new one that names them too. */
+/* Writes a .cracks.vtu file for every moment, and result.pvd.new, a list that names these files too. */
 static pg_status write_faces (faces *a, const result *r)
 {
     pg_status status = PG_OK;
@@ -464,7 +467,7 @@ static pg_status write_faces (faces *a, const result *r)
         fprintf (f, "<DataSet timestep=\"%.17g\" part=\"1\" file=\"%s\"/>\n", time, strrchr (path, '/') + 1);
         moment++;
     }
-    status = settle (f, fresh, fresh);                 /* it stays under this name */
+    status = settle (f, fresh, fresh);                 /* finish_result will rename it */
     f = NULL;
     PG_TRY (status);
     PG_TRY (pg_file_sync (fresh));
