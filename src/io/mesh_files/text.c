@@ -28,7 +28,7 @@ int mesh_line (mesh_cursor *c, const char **first, const char **last)
     return 1;
 }
 
-/* Blanks and tabs. */
+/* Moves *at behind blanks and tabs. */
 static void skip_blanks (const char **at, const char *last)
 {
     while (*at < last && (**at == ' ' || **at == '\t')) ++*at;
@@ -54,7 +54,8 @@ int mesh_whole (const char **at, const char *last, long *value)
     return 1;
 }
 
-/* By strtod, after D exponents of Fortran have become e. 0: no number, not finite, or too long to be one. */
+/* Converts a number by strtod, after D exponents of Fortran have become e. 0: no number, not finite, or too
+ * long to be one. */
 static int slow_real (const char *first, const char *last, double *value)
 {
     enum { LONGEST = 400 };
@@ -74,7 +75,7 @@ static int is_digit (char c) { return c >= '0' && c <= '9'; }
  * are, and how many stand behind the point. */
 typedef struct { uint64_t sum; long count, behind_point; int exact; } digits;
 
-/* Returns the place behind them. */
+/* Reads digits with at most one decimal point between them; returns the position behind them. */
 static const char *read_digits (const char *p, const char *last, digits *d)
 {
     int point = 0;
@@ -92,8 +93,8 @@ static const char *read_digits (const char *p, const char *last, digits *d)
     return p;
 }
 
-/* An exponent such as e-3 or D+02, if there is one. Returns the place behind it; NULL: a letter without a
- * number. */
+/* Reads an exponent such as e-3 or D+02, if there is one. Returns the position behind it; NULL: a letter
+ * without a number. */
 static const char *read_exponent (const char *p, const char *last, long *exponent)
 {
     if (p >= last || !*p || !strchr ("eEdD", *p)) return p;

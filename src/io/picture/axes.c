@@ -10,8 +10,8 @@
 #define MINUS "\xe2\x88\x92"
 #define TIMES "\xc3\x97"
 
-/* Opens a range that is empty but for rounding noise: by a tenth of the value to both sides, or from 0 to
- * 1 around zero. */
+/* Widens a range that is empty but for rounding noise: by a tenth of the value to both sides; a range at zero
+ * becomes 0 to 1. */
 void pg_range_widen (double *low, double *high)
 {
     double size = fmax (fabs (*low), fabs (*high));
@@ -181,8 +181,8 @@ static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double
     while (!texts_fit (a, cr, length) && --target > 0);
 }
 
-/* The value at that place of the row ... 0.5, 1, 2, 5, 10, 20, 50 ...; place 0 is 1, place 3
- * is 10, place -1 is 0.5. */
+/* Value number `place` of the sequence ... 0.5, 1, 2, 5, 10, 20, 50 ...: number 0 is 1, number 3
+ * is 10, number -1 is 0.5. */
 static double row_value (int place)
 {
     static const double m[] = { 1, 2, 5 };
@@ -252,7 +252,7 @@ void pg_axis_fit (pg_axis *a, cairo_t *cr, double low, double high, double lengt
     (request->log ? fit_log : fit_linear) (a, cr, low, high, length, request);
 }
 
-/* Place of a value along the axis, as a share of its length from the end at `low`. */
+/* Position of a value along the axis, as a fraction of its length from its left or lower end. */
 double pg_axis_at (const pg_axis *a, double value)
 {
     double t = a->log ? log10 (value / a->low) / log10 (a->high / a->low)

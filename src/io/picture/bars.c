@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bodies with one dimension as a chart. */
+ * Draws 1D bodies as a chart. */
 #include "picture_private.h"
 
-/* 1D bodies: a chart of the value over the (displaced) place, one curve per panel, sorted by
- * place. */
+/* Draws the value over the (displaced) coordinate, one curve per panel, with the points sorted by
+ * coordinate. */
 pg_status pg_draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
                         const pg_picture_style *style)
 {

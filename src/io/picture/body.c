@@ -2,7 +2,7 @@
  * A field at the points of a body that came from a mesh, drawn on its elements.
  *
  * All corners of elements are points of the body. The middle nodes of quadratic elements may
- * not be: they take the value of the linear shape functions of the corners at their place. */
+ * not be: their value is interpolated from the corners by the linear shape functions. */
 #include "picture_private.h"
 
 int pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *style)
@@ -12,7 +12,7 @@ int pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *st
     return body && body->mesh.n && body->point && body->mesh.dim > 1 && !cracked && !part;
 }
 
-/* The linear element with the corners of this one. */
+/* The kind of linear element that has the same corners as an element of this kind. */
 static pg_element straight (pg_element kind)
 {
     static const pg_element same[4][9] = { [1] = { [2] = PG_BAR2 },
@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* One state alone. */
+/* A picture of one state is drawn as a single panel. */
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value,
                             const pg_picture_style *style)
 {

@@ -5,7 +5,7 @@
 
 struct pg_cairo_calls pg_cairo;
 
-/* The list is expanded a second time, to the text of each name and its place in the table. */
+/* PG_CAIRO_CALLS is expanded here to the text of each function's name and its offset in the table. */
 pg_status pg_cairo_load (void)
 {
     static const pg_library_function function[] = {

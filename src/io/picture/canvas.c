@@ -25,8 +25,8 @@ int pg_ends_with (const char *path, const char *ending)
     return n >= m && strcasecmp (path + n - m, ending) == 0;
 }
 
-/* A white sheet of width x height pixels (points in SVG); the file is made at once, so that a folder that
- * cannot be written is noticed before anything is drawn. */
+/* Makes a white sheet of width x height pixels (points in SVG); the file is created at once, so that a folder
+ * that cannot be written to is noticed before anything is drawn. */
 pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double height)
 {
     pg_status status = PG_OK;

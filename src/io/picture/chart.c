@@ -10,8 +10,8 @@
 #include <math.h>
 
 enum { WIDTH = 1200, HEIGHT = 840 };
-/* Space between parts, length of the sample line in the legend (both pixels), largest number
- * of texts. */
+/* Space between parts, length of the sample line in the legend (both pixels), largest number of
+ * texts at marks. */
 enum { CHART_GAP = 16, CHART_SAMPLE = 60, CHART_NOTES = 8 };
 /* The layout of a chart in pixels from the upper left corner of the picture. */
 typedef struct {
@@ -31,13 +31,13 @@ typedef struct {
 } chart;
 
 /* ---- pens ---------------------------------------------------------------------------------------------- */
-/* A logarithmic axis has no place for zero and negative values. */
+/* 1 if a point can be drawn: its coordinates are finite, and positive on logarithmic axes. */
 static int visible (const chart *c, double x, double y)
 {
     return isfinite (x) && isfinite (y) && (!c->x.log || x > 0) && (!c->y.log || y > 0);
 }
 
-/* Pixels count downwards, values upwards. */
+/* Converts a point (x, y) of the chart to pixels, which count downwards. */
 static void place (const chart *c, double x, double y, double *px, double *py)
 {
     *px = c->left + pg_axis_at (&c->x, x) * c->width;
@@ -114,8 +114,8 @@ static double height_at (const chart *c, const pg_curve *curve, double x)
     return NAN;
 }
 
-/* Where a slope triangle goes unless the caller says: around the middle of the curve, over 28 % of its
- * decades. */
+/* Range of x of a slope triangle for which the caller gives none: the middle 28 % of the curve's range in
+ * log x. */
 static void middle_part (const chart *c, const pg_curve *curve, double *low, double *high)
 {
     double from = INFINITY, to = 0;
@@ -148,7 +148,7 @@ static int slope_corners (const chart *c, const pg_curve *curve, const pg_chart_
     return 1;
 }
 
-/* The triangle, with the order beside its upright side and 1 below the level one. */
+/* Draws a slope triangle, with the order beside its vertical side and 1 below its horizontal one. */
 static void draw_slope (const chart *c, cairo_t *cr, const pg_curve *curve, size_t k,
                         const pg_chart_slope *slope)
 {
@@ -170,14 +170,14 @@ static void draw_slope (const chart *c, cairo_t *cr, const pg_curve *curve, size
 /* ---- legend -------------------------------------------------------------------------------------------- */
 static const double row = 1.45 * PG_FONT;
 
-/* One row for each curve, and one for all the pale ones together. */
+/* Number of rows of the legend: one for each curve, and one for all the pale ones together. */
 static size_t legend_rows (const chart *c)
 {
     for (size_t k = 0; k < c->style->npale; k++) if (c->style->pale[k].n) return c->ncurve + 1;
     return c->ncurve;
 }
 
-/* Row k: the name of curve k, or at the end that of the pale curves. */
+/* Text of row k of the legend: the name of curve k, or in the last row that of the pale curves. */
 static const char *name_of_row (const chart *c, size_t k)
 {
     const char *name = k < c->ncurve ? c->curves[k].name : c->style->pale[0].name;
@@ -194,7 +194,7 @@ static void size_legend (chart *c, cairo_t *cr)
     c->legend[3] = ceil (row * (double) rows + CHART_GAP);
 }
 
-/* How many of the places sampled on a curve (16 between neighbouring points) lie in a box. */
+/* Number of sampled points of a curve (16 between neighbouring data points) that lie in a box. */
 static size_t crowd_of_curve (const chart *c, const pg_curve *curve, const double *box)
 {
     double x = box[0], y = box[1], w = box[2], h = box[3];
@@ -215,13 +215,13 @@ static size_t crowd_of_curve (const chart *c, const pg_curve *curve, const doubl
     return count;
 }
 
-/* How much a text or the legend in this box would hide: slope triangles, texts of marks and places on
+/* How much a text or the legend in this box would hide: slope triangles, texts of marks and sampled points of
  * curves, all counted alike. */
 static size_t crowd (const chart *c, const double *box)
 {
     double x = box[0], y = box[1], w = box[2], h = box[3];
     size_t count = 0;
-    double tx[3], ty[3], room = 1.5 * PG_FONT;         /* of the numbers at a triangle */
+    double tx[3], ty[3], room = 1.5 * PG_FONT;         /* for the numbers at a triangle */
     for (size_t k = 0; k < c->style->nslope; k++) {
         const pg_chart_slope *s = &c->style->slopes[k];
         if (s->curve >= c->ncurve || !slope_corners (c, &c->curves[s->curve], s, tx, ty)) continue;
@@ -285,8 +285,8 @@ static void draw_legend (const chart *c, cairo_t *cr)
 /* Radius of a ring, and distance of the text from its middle, pixels. */
 enum { RING = 11, AWAY = 18 };
 
-/* The box of a text of size w x h at one of eight places around a ring: right, left, above,
- * below, then the four corners. It is moved into the frame. */
+/* Computes the box of a text of w x h pixels at one of eight spots around a ring: right, left,
+ * above, below, then the four corners. The box is moved into the frame. */
 static void spot_of (const chart *c, double px, double py, double w, double h, int spot, double box[4])
 {
     static const signed char side[8][2] = { { 1, 0 },  { -1, 0 },  { 0, -1 }, { 0, 1 },
@@ -298,8 +298,8 @@ static void spot_of (const chart *c, double px, double py, double w, double h, i
     box[2] = w, box[3] = h;
 }
 
-/* For each text the place of the eight with the least in it; covering the ring itself counts
- * as worst. Earlier texts are obstacles to later ones. */
+/* Places the text of each mark at the one of eight spots where it hides least; hiding its own ring
+ * counts as worst. Earlier texts are obstacles to later ones. */
 static void place_marks (chart *c, cairo_t *cr)
 {
     for (size_t k = 0; k < c->style->nmark && k < CHART_NOTES; k++) {
@@ -402,7 +402,7 @@ static void lay_out (chart *c)
     cairo_surface_destroy (scratch);
 }
 
-/* Pale lines at the ticks of both axes, paler ones at the unlabelled ticks. */
+/* Draws pale lines at the ticks of both axes, paler ones at the unlabelled ticks. */
 static void draw_grid (const chart *c, cairo_t *cr)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -419,7 +419,7 @@ static void draw_grid (const chart *c, cairo_t *cr)
     }
 }
 
-/* The lines x = 0 and y = 0, where values of both signs are seen. */
+/* Draws the lines x = 0 and y = 0 if they lie inside the frame. */
 static void draw_zero (const chart *c, cairo_t *cr)
 {
     double x = pg_axis_at (&c->x, 0), y = pg_axis_at (&c->y, 0);
@@ -432,7 +432,7 @@ static void draw_zero (const chart *c, cairo_t *cr)
     cairo_stroke (cr);
 }
 
-/* A polyline, interrupted at places that cannot be drawn. Points closer than a quarter of a
+/* Draws a polyline, interrupted at points that cannot be drawn. Points closer than a quarter of a
  * pixel to the last drawn one are left out, which keeps the file of a curve with 1e6 points
  * small. */
 static void line (const chart *c, cairo_t *cr, const pg_curve *curve)
@@ -453,7 +453,7 @@ static void line (const chart *c, cairo_t *cr, const pg_curve *curve)
     cairo_stroke (cr);
 }
 
-/* The line of a curve, its markers, or both. */
+/* Draws the line of a curve, its markers, or both. */
 static void draw_curve (const chart *c, cairo_t *cr, const pg_curve *curve, size_t k)
 {
     double px, py;
@@ -467,7 +467,7 @@ static void draw_curve (const chart *c, cairo_t *cr, const pg_curve *curve, size
     cairo_set_dash (cr, NULL, 0, 0);
 }
 
-/* Grid, frame and axes, then what lies inside the frame, clipped to it, then texts. */
+/* Draws grid, frame and axes, then what lies inside the frame, clipped to it, then texts. */
 static void draw_chart (const chart *c, cairo_t *cr)
 {
     draw_grid (c, cr);

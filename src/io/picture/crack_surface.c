@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Surfaces of cracks in space that have grown as triangles, for the view that shows the crack alone: seen
- * from any side, with their own shape instead of the cubes of damaged points. Cracks of the scene, which are
- * plane polygons, belong to them. What lies outside the box of the body is cut away: triangles go on a
+ * Draws the surfaces of grown 3D cracks, which consist of triangles, for the view of the crack alone: from
+ * any side, with their own shape instead of the cubes of damaged points. The pre-cracks of the scene, which
+ * are plane polygons, are drawn too. What lies outside the box of the body is cut away, as triangles extend a
  * little beyond its surface. */
 #include "picture_private.h"
 #include <math.h>
@@ -44,22 +44,23 @@ void pg_cracks_depth (const pg_cracks *cracks, const pg_grid *g, int axis, doubl
             double x = cracks->crack[k].vertex[3*i + (size_t) axis];
             least = fmin (least, fmax (x, g->low[axis])), most = fmax (most, fmin (x, g->high[axis]));
         }
-    /* a surface across the direction of view has the colours of a tenth of the body */
+    /* the range is at least a tenth of the body's extent, also for a plane surface normal to the axis */
     double room = fmax (0, 0.1 * (g->high[axis] - g->low[axis]) - (most - least));
     *low = (least - 0.5 * room) / unit, *high = (most + 0.5 * room) / unit;
 }
 
-/* What a picture of surfaces needs: the body, the screen, and how places get their values. */
+/* State while crack surfaces are drawn: the body, the screen, and how points of a surface get their
+ * values. */
 typedef struct {
     const pg_solid *solid;
     pg_screen *screen;
-    pg_nearest *near;                                  /* NULL: by depth */
+    pg_nearest *near;                                  /* search for points; NULL: colours by depth */
     const double *value;                               /* value that colours each point */
     int axis;                                          /* axis along which depth is measured */
-    double unit;                                       /* of depths in the picture, m */
+    double unit;                                       /* length unit of depths in the picture, m */
 } painter;
 
-/* A triangle inside the box, bright as its side towards the eye is. */
+/* Draws a triangle inside the box, with the brightness of its side towards the eye. */
 static void paint (const painter *p, const double *a, const double *b, const double *c)
 {
     const pg_eye *e = p->solid->eye;

@@ -11,7 +11,7 @@
 #include "perigal/picture.h"
 #include <math.h>
 
-/* The sign of the value farthest from zero: the way in which the test pulls. */
+/* The sign of the value farthest from zero: the direction in which the test loads the body. */
 static double direction_of (size_t n, const double *x)
 {
     double most = 0;
@@ -19,7 +19,8 @@ static double direction_of (size_t n, const double *x)
     return most < 0 ? -1 : 1;
 }
 
-/* The curve so far, and the last state that counted (n: none yet). */
+/* The envelope so far: m points (x, y), the largest sign x (top), the last state that counted (n: none
+ * yet). */
 typedef struct { double *x, *y, sign, top; size_t m, last; } envelope;
 
 /* Appends a state that goes beyond all before. Between two events all loads grow in proportion (linear),
@@ -43,7 +44,7 @@ size_t pg_envelope (size_t n, const double *x, const double *y, int linear, doub
         int fell = linear && e.last < n;
         if (!isfinite (x[i]) || !isfinite (y[i])) continue;
         if (e.sign * x[i] > e.top) append (&e, x[i], y[i], fell), e.last = i;
-        else if (fell && i + 1 == n && x[i] != 0)      /* the path ends on a line of its own */
+        else if (fell && i + 1 == n && x[i] != 0)      /* final drop to the line of the last state */
             ex[e.m] = ex[e.m - 1], ey[e.m] = y[i] / x[i] * ex[e.m - 1], e.m++;
     }
     *peak = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields on points as pictures: which points are seen, the frame they fill, their colours; one state, or
- * several side by side with one colour bar. In 2D each place of the body has the colour of its point; in
- * 3D a section is drawn so, or the body as cubes from outside; in 1D the values are a chart over x.
+ * Draws fields on points: which points are seen, the frame they fill, their colours; one state, or several
+ * side by side with one colour bar. A 2D body, or a section of a 3D body, has everywhere the colour of the
+ * point that the place belongs to; a 3D body from outside consists of cubes; 1D values become a chart.
  *
  * The steps, in the order of pg_picture_panels: the eye (view.c), the points in sight, the frame in
  * metres, the range of colours, the sheet with its axes (sheet.c), and for each panel a screen of pixels
@@ -22,24 +22,24 @@ typedef struct {
     /* 3D: the lattice of the points. */
     pg_grid grid;
     pg_sheet sheet;
-    /* 1 for the points that the section meets, or all (cloud->n). */
+    /* 1 for the points that the section meets; without a section 1 for all (cloud->n). */
     unsigned char *seen;
     /* 1 for the points that the current panel selects (cloud->n). */
     unsigned char *keep;
     /* Coloured by depth: the coordinate of each point in the picture's length unit (cloud->n);
      * else NULL. */
     double *own;
-    /* index: the point in the cloud that the k-th seen point is; layer: the index of the shown
-     * layer. */
+    /* index[k]: index in the cloud of the k-th point that is drawn; layer: index of the layer of
+     * the lattice that is shown. */
     int    *index, layer;
     /* Spacing around the points of a 2D cloud that is no lattice, m (cloud->n), or NULL. */
     double *spacing;
-    /* Displaced faces of cracks in 2D, PG_FACE places each, m. */
+    /* Displaced faces of cracks in 2D, PG_FACE points each (nface x PG_FACE x 2), m. */
     double *face;  size_t nface, cap_face;
     char    label[32], title[440];
 } drawing;
 
-/* The displacement to draw a panel with, or NULL where the body is shown at rest. */
+/* The displacement (m) to draw a panel with, or NULL where the body is shown undeformed. */
 static const double *displaced (const drawing *d, size_t panel)
 {
     return d->style->magnify != 0 ? d->panel[panel].u : NULL;
@@ -51,8 +51,8 @@ static const pg_cracks *cracks_of (const drawing *d, size_t panel)
     return d->panel[panel].cracks ? d->panel[panel].cracks : d->style->cracks;
 }
 
-/* What is coloured: the value of the panel, or for a crack seen by its depth the coordinate towards the
- * eye. */
+/* The values that are coloured: those of the panel, or, where colours show the depth, the coordinate of each
+ * point towards the eye. */
 static const double *value_of (const drawing *d, size_t panel)
 {
     return d->own ? d->own : d->panel[panel].value;
@@ -136,7 +136,8 @@ done:
     return status;
 }
 
-/* A body at rest ends where its outline does, not half a cell beyond its outer points. */
+/* Limits the range of an undeformed body to its outline: it does not end half a cell beyond its outer
+ * points. */
 static void end_at_body (const drawing *d, const double *direction, double *low, double *high)
 {
     const pg_body *body = d->style->outline->body;
@@ -183,7 +184,7 @@ static void extent_of_box (const drawing *d, const double *direction, double *lo
     }
 }
 
-/* Widens what several frames reach by this one. */
+/* Widens the common frame of several pictures by the frame of this one. */
 static void widen (pg_reach *reach, const pg_sheet *p)
 {
     for (int a = 0; a < 2; a++) {
@@ -215,15 +216,15 @@ done:
 }
 
 /* ---- colours ---------------------------------------------------------------------------------------- */
-/* Does the choice of points (for instance damage of 0.35 and more) take point i? */
+/* 1 if point i is selected for drawing (for instance by a damage of 0.35 and more). */
 static int above (const drawing *d, size_t panel, size_t i)
 {
     const double *select = d->panel[panel].select;
     return !select || select[i] >= d->style->above;
 }
 
-/* Colours by the coordinate that points most towards the eye, in the unit of the picture: a crack surface
- * seen alone shows its shape so. */
+/* The axis that points most nearly towards the eye. Its coordinate colours a crack surface that is seen
+ * alone, so that its shape shows. */
 static int depth_axis (const pg_eye *e)
 {
     int axis = fabs (e->toward[1]) > fabs (e->toward[0]) ? 1 : 0;
@@ -241,7 +242,7 @@ done:
     return status;
 }
 
-/* What all panels show (d->n x cloud->n), NAN for a point that is not shown. */
+/* The values that all panels show (d->n x cloud->n), NAN for a point that is not shown. */
 static pg_status shown_values (const drawing *d, double **out)
 {
     pg_status status = PG_OK;
@@ -254,7 +255,8 @@ done:
     return status;
 }
 
-/* Colours by depth go over the depths of the points, or of the surfaces of cracks, whatever was asked for. */
+/* Chooses the range of the colours. Colours by depth cover the depths of the points or of the crack surfaces,
+ * whatever range the style asks for. */
 static pg_status choose_colours (drawing *d, const pg_picture_style *style, const double *shown, double *low,
                                  double *high)
 {
@@ -279,8 +281,8 @@ static double half_of_points (const drawing *d, int a)
 }
 
 /* ---- painting --------------------------------------------------------------------------------------- */
-/* What is handed to tiles.c: coordinates, shifts, damage and local spacings of the points in sight, in the
- * plane. */
+/* The arrays that tiles.c gets: coordinates, displacements times magnification and local spacings (all m) of
+ * the visible points in the plane of the picture, and their damage. */
 typedef struct { double *place, *shift, *damage, *size; } plane_points;
 
 /* Frees the arrays of the points in the plane. */
@@ -295,8 +297,8 @@ static void into_plane (const pg_eye *e, const double *x, int dim, double factor
     out[0] = factor * pg_along (e->right, x, dim), out[1] = factor * pg_along (e->up, x, dim);
 }
 
-/* Takes the points in sight over into the plane; d->index remembers which points they are. Those near an
- * oblique plane are taken where they have moved to, as their cells are not those of a lattice in that
+/* Projects the visible points into the plane of the picture; d->index stores their indices in the cloud.
+ * Points near an oblique plane get their displaced positions, as their cells do not form a lattice in that
  * plane. */
 static pg_status collect_points (drawing *d, size_t panel, pg_tiles *t, plane_points *p)
 {
@@ -331,7 +333,7 @@ done:
     return status;
 }
 
-/* The parts of the points in the plane, as 2D bodies and layers show them. */
+/* Fills the screen of a 2D body or a section with the part of the plane that belongs to each point. */
 static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -362,7 +364,7 @@ done:
     return status;
 }
 
-/* The cells that an oblique plane cuts, for a lattice at rest. */
+/* Fills the screen with the cells of an undeformed lattice that an oblique plane cuts. */
 static void paint_slice (drawing *d, pg_screen *s)
 {
     pg_slice_draw (&d->grid, &d->sheet.eye, s);
@@ -370,8 +372,8 @@ static void paint_slice (drawing *d, pg_screen *s)
         if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
 }
 
-/* Fills the screen of a panel by the way of looking: cubes from outside, a plane through cells, or parts
- * of points. */
+/* Fills the screen of a panel: with cubes seen from outside, with the cells that an oblique plane cuts, or
+ * with the parts of a plane that belong to points. */
 static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
 {
     const pg_eye *e = &d->sheet.eye;
@@ -392,7 +394,8 @@ static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
     return PG_OK;
 }
 
-/* One frame: pixels, then the box around a choice of points, cracks, frame and title. */
+/* Draws one panel: pixels, then the box of the body if only selected points are drawn, cracks, frame,
+ * title. */
 static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
 {
     pg_status status = PG_OK;
@@ -418,7 +421,8 @@ done:
     return status;
 }
 
-/* The title with the section in it, for a 3D body of which no section was asked for. */
+/* Returns the title with the position of the section added, for a 3D body of which no section was asked
+ * for. */
 static const char *name_layer (drawing *d)
 {
     const char *given = d->style->title ? d->style->title : "";

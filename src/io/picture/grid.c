@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The points of a cloud as cells of the lattice they came from, found from their places, steps and volumes
+ * The points of a cloud as cells of the lattice they came from, found from their positions, steps and volumes
  * alone, because a result file does not say how its points were made. */
 #include "picture_private.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Edges of a cell (the cloud's steps, its spacing, or the cube root of the mean volume,
- * whichever is known) and how many cells lie between the first and the last point. Returns 0
- * if there would be many more cells than points: these are points on no lattice. */
+/* Finds the edge lengths of a cell (the cloud's steps, its spacing, or the cube root of the mean
+ * volume, whichever is known) and the number of cells along each axis. Returns 0 if there would
+ * be many more cells than points: the points then lie on no lattice. */
 static int measure (pg_grid *g, const pg_cloud *cloud)
 {
     double cells = 1, mean = 0;

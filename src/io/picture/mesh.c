@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of meshes: which faces of elements are seen, the frame they fill, their colours: a value at the
- * nodes, the blocks of elements or the sets of sides and nodes. A face is cut into small triangles along its
+ * Draws meshes: which faces of elements are seen, the frame they fill, their colours: a value at the nodes,
+ * the blocks of elements or the sets of sides and nodes. A face is cut into small triangles along its
  * own coordinates, so that curved edges look curved and values vary as the shape functions of the element do;
  * then come the edges that are in sight, and the sets. */
 #include "picture_private.h"
@@ -58,8 +58,8 @@ done:
     return status;
 }
 
-/* Coordinates of the nodes, displaced by magnify u and scaled to m. PG_E_USAGE names the first
- * node without a finite place. */
+/* Computes the coordinates of the nodes, displaced by magnify u and scaled to m. PG_E_USAGE names
+ * the first node without a finite position. */
 static pg_status place_nodes (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -99,8 +99,8 @@ static void include (double *low, double *high, double value, int first)
     *low = first ? value : fmin (*low, value), *high = first ? value : fmax (*high, value);
 }
 
-/* The box of the nodes in space, and the frame that holds them in the plane of the picture, with a narrow
- * margin. */
+/* Finds the box of the nodes in space, and the frame that holds them in the plane of the picture, with a
+ * narrow margin. */
 static void choose_frame (mesh_drawing *d)
 {
     pg_sheet *p = &d->sheet;
@@ -135,7 +135,7 @@ static void colour_of_block (double t, double rgb[3])
     for (int c = 0; c < 3; c++) rgb[c] = 1 - (k < PG_CURVE_COLOURS ? 0.42 : 0.72) * (1 - rgb[c]);
 }
 
-/* Another row of the legend: the name of a block or set, or its number where it has no name. */
+/* Adds a row to the legend: the name of a block or set, or its number where it has no name. */
 static void add_name (mesh_drawing *d, const char *name, const char *kind, int id)
 {
     size_t k = d->sheet.nlegend++;
@@ -206,7 +206,7 @@ done:
     return status;
 }
 
-/* Largest number of parts along an edge, and places on a face that these make. */
+/* Largest number of parts that an edge is divided into, and of sample points on a face. */
 enum { FINEST = 8, SPOTS = (FINEST + 1) * (FINEST + 1) };
 
 /* ---- faces --------------------------------------------------------------------------------------------- */
@@ -238,8 +238,8 @@ static int parts_of (const mesh_drawing *d, pg_element kind)
     return is_triangle (kind) ? 1 : d->value ? (most + 1) / 2 : 1;
 }
 
-/* The place with the local coordinates xi on a face: its pixel and depth (at), its coordinates
- * (x) and the value there, interpolated by the shape functions of the element. */
+/* Evaluates the point with the local coordinates xi on a face: its pixel and depth (at), its
+ * coordinates (x) and the value there, interpolated by the shape functions of the element. */
 static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind, const int *node,
                      const double *xi, double *at, double *x, double *value)
 {
@@ -272,8 +272,8 @@ static float light_of (const mesh_drawing *d, const double (*x)[3])
  * grid. */
 typedef struct { int triangle, m, stride; double at[SPOTS][3], x[SPOTS][3], value[SPOTS]; } face_grid;
 
-/* Fills the grid of a face: places, pixels with depth, and values. A face with a category of
- * its own has one value. */
+/* Fills the grid of a face: coordinates, pixels with depth, and values. A face that belongs to a
+ * name in the legend (d->own) has one value. */
 static void sample_face (const mesh_drawing *d, const pg_screen *s, size_t f, face_grid *g)
 {
     int node[9];
@@ -289,7 +289,7 @@ static void sample_face (const mesh_drawing *d, const pg_screen *s, size_t f, fa
         }
 }
 
-/* One triangle of the grid, with its corners at these spots. */
+/* Paints one triangle of the grid; corner: the indices of its corners in the arrays of the grid. */
 static void paint_triangle (const mesh_drawing *d, pg_screen *s, const face_grid *g, const int corner[3])
 {
     double v[3][3], y[3][3], w[3];
@@ -301,8 +301,8 @@ static void paint_triangle (const mesh_drawing *d, pg_screen *s, const face_grid
         pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
 }
 
-/* Paints the triangles between the places of the grid: two for each square, one at the long
- * side of a triangle. */
+/* Paints the triangles between the points of the grid: two for each square, one at the long side
+ * of a triangular face. */
 static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
 {
     face_grid g;
@@ -429,7 +429,7 @@ static void draw_lines (const mesh_drawing *d, cairo_t *cr, const pg_screen *s)
 }
 
 /* ---- the sheet ----------------------------------------------------------------------------------------- */
-/* Colours, sheet, faces with a depth buffer, then lines on top. */
+/* Draws the whole picture: colours, sheet, faces with a depth buffer, then lines on top. */
 static pg_status draw_sheet (mesh_drawing *d, const char *path)
 {
     pg_status status = PG_OK;
@@ -461,7 +461,7 @@ done:
     return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
-/* The order: view, places of the nodes, faces, frame, drawing. */
+/* The order of the steps: view, positions of the nodes, faces, frame, drawing. */
 pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value,
                            const pg_picture_style *style)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Movies as animated PNG: the chunks of single pictures, which cairo has written, put into one file. The
+ * Writes movies as animated PNG: the chunks of single pictures, which cairo has written, in one file. The
  * first picture stays an ordinary one; the data of the others stand in chunks of their own with numbers
  * (PNG third edition, sections 5.2 and 11.3.6). Nothing is compressed or decompressed here. */
 #include "perigal/output.h"
@@ -9,13 +9,13 @@
 #include <string.h>
 
 static const unsigned char signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
-/* Length of a chunk's head (length, name), of a number behind it, and of its checksum. */
+/* Bytes of a chunk's head (length, name), of a number behind it, and of its checksum; most bytes of data. */
 enum { HEAD = 8, NUMBER = 4, CHECKSUM = 4, LARGEST_CHUNK = 0x7fffffff };
 
 struct pg_movie {
     FILE    *file;
     char    *path;
-    /* Pictures promised and here; the number of the next numbered chunk; size in pixels. */
+    /* Numbers of pictures promised and written; number of the next numbered chunk; size in pixels. */
     size_t   frames, count;
     uint32_t number, width, height;
     /* Duration of a picture, s: numerator and denominator. */
@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* How long the next picture stays, and that it covers the whole sheet. */
+/* Writes the control chunk of the next picture: how long it stays, and that it covers the whole area. */
 static pg_status put_control (pg_movie *m)
 {
     unsigned char data[22] = { 0 };
@@ -78,7 +78,7 @@ static pg_status put_control (pg_movie *m)
     return put_chunk (m, "fcTL", 1, data, sizeof data);
 }
 
-/* The head of the movie: that of its first picture, and the number of all, repeated for ever. */
+/* Writes the head of the movie: that of its first picture, and the number of pictures, repeated for ever. */
 static pg_status put_head (pg_movie *m, const unsigned char *data, size_t n)
 {
     pg_status status = PG_OK;
@@ -92,8 +92,8 @@ done:
     return status;
 }
 
-/* One chunk of a picture: its head begins the movie or must agree with it, its data follow; all else is left
- * out. *begun: data have come. */
+/* Takes over one chunk of a picture: the head begins the movie or must agree with it, image data are copied,
+ * all else is left out. *begun: 1 once image data have come. */
 static pg_status take_chunk (pg_movie *m, const char *picture, const unsigned char *chunk, size_t n,
                              int *begun)
 {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The cracks of a scene alone, before anything is computed: in the plane the body coloured by the distance to
- * the nearest crack, slots being left out; in space the cells that cracks pass through, seen from outside,
- * coloured by their depth. The body is drawn on a lattice of its own, whatever the scene's spacing. */
+ * Draws the cracks of a scene alone, before anything is computed: in 2D the body coloured by the distance to
+ * the nearest crack, without its slots; in 3D the cells that cracks pass through, seen from outside, coloured
+ * by their depth. The body is drawn on a lattice of its own, whatever the scene's spacing. */
 #include "perigal/picture.h"
 #include <math.h>
 #include <string.h>
 
-/* Cells along the longest side of the body. */
+/* Numbers of cells along the longest side of the body, in 2D and 3D. */
 enum { PLANE_CELLS = 320, SPACE_CELLS = 110 };
 
-/* Points at the middles of the cells that lie in the body. */
+/* Makes a cloud with a point at the centre of each cell of the lattice that lies in the body. */
 static pg_status points_of (pg_cloud *c, const pg_lattice *l)
 {
     pg_status status = PG_OK;
@@ -36,7 +36,7 @@ done:
     return status;
 }
 
-/* Distance of x from a crack in the plane, or from the edges of an outline, m. */
+/* Distance (m) of x from a 2D crack, a segment or the edges of a polygon, or from the surface of a slot. */
 static double distance_of (const pg_crack *c, const double *x)
 {
     double least = INFINITY, d;
@@ -48,7 +48,7 @@ static double distance_of (const pg_crack *c, const double *x)
     return fmax (0, least - 0.5 * c->slot);
 }
 
-/* The largest unit that leaves numbers of some size: m, mm, um ...; its name. */
+/* The largest length unit (in m; *name: "km", "m", "mm" ...) that is not above half of `size` (m). */
 static double unit_of (double size, const char **name)
 {
     static const struct { double unit; const char *name; } units[] = {
@@ -77,7 +77,7 @@ static pg_status draw_plane (const char *path, const pg_body *body, const pg_cra
     return pg_picture_field (path, cloud, value, style);
 }
 
-/* Cells whose middle lies within 0.6 steps of a crack, or of a slot's face. */
+/* Draws the cells whose centre lies within 0.6 steps of a crack, or of a slot's face. */
 static pg_status draw_space (const char *path, const pg_cracks *all, const pg_cloud *cloud, double *value,
                              pg_picture_style *style)
 {
@@ -104,7 +104,7 @@ pg_status pg_picture_network (const char *path, const pg_body *body, const pg_cr
     PG_TRY (pg_lattice_fit (&lattice, body, size / (body->dim == 2 ? PLANE_CELLS : SPACE_CELLS), NULL));
     PG_TRY (points_of (&cloud, &lattice));
     PG_ALLOC (value, cloud.n);
-    /* slots are seen as gaps: lines are drawn of sharp cracks only */
+    /* slots are gaps in the body: lines are drawn for sharp cracks only */
     sharp.n = 0, sharp.crack = NULL;
     PG_ALLOC (sharp.crack, cracks->n);
     for (size_t k = 0; k < cracks->n; k++)

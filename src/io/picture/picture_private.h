@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the files of this folder share: a canvas (PNG or SVG), text with superscripts and
+ * Private: what the files of this folder share: a canvas (PNG or SVG), text with superscripts and
  * subscripts, axes with ticks, colour maps, the assignment of pixels to points, the viewing
  * direction, and the sheet with frames, axes and colour bar. Lengths on the picture are pixels
  * of the PNG (points of the SVG), counted to the right and downwards; lengths in the body are
@@ -27,7 +27,7 @@ typedef struct {
     /* svg: 1 for SVG; reason: errno of the first write that failed, 0 if none did. */
     int      svg, reason;
 } pg_canvas;
-/* 1 if the path ends so, in capitals or not. */
+/* 1 if the path ends in `ending`, without regard to case. */
 int pg_ends_with (const char *path, const char *ending);
 /* Creates the file and a white canvas of that size in pixels. PG_E_USAGE: the name ends
  * neither in .png nor in .svg. */
@@ -103,7 +103,7 @@ typedef struct {
     /* Cells along each axis; loose = 1: the points lie on no lattice (two share a cell), and
      * `at` is NULL. */
     int     count[3], loose;
-    /* Place of the first point and edges of a cell, m. */
+    /* Position of the first point and edge lengths of a cell, m. */
     double  origin[3], step[3];
     /* The box of all cells, m. Where the outer points carry half a cell the box ends at the
      * points. */
@@ -128,7 +128,7 @@ int       pg_grid_point (const pg_grid *g, const int *cell);
 /* What is looked at: a 2D body; one layer of points normal to an axis; an oblique section; a
  * solid from outside. */
 typedef enum { PG_FLAT, PG_LAYER, PG_SLICE, PG_SOLID } pg_eye_kind;
-/* Parallel projection: a place x is drawn at (right . x, up . x), at the depth toward . x. */
+/* Parallel projection: a point x of space is drawn at (right . x, up . x), at the depth toward . x (m). */
 typedef struct {
     pg_eye_kind kind;
     /* Unit vectors that make a right-handed system; toward points from the body to the eye. */
@@ -147,27 +147,28 @@ pg_status pg_eye_open (pg_eye *eye, const pg_cloud *cloud, const pg_picture_styl
 double    pg_along (const double *direction, const double *x, int dim);
 
 /* ---- a frame of the picture's plane on pixels ---------------------------------------------------------- */
-/* A frame of the picture's plane on pixels, each of which knows what is seen there. */
+/* A rectangle of the picture's plane as pixels, with the point or the value that each pixel shows. */
 typedef struct {
     int     width, height;
     /* Coordinates of the upper left corner in the picture's plane, m; pixels per m. */
     double  left, top, scale;
-    /* Point that a pixel shows, or one of the values below (width x height). */
+    /* Index of the point that a pixel shows, or PG_EMPTY, PG_GHOST or PG_EDGE (width x height). */
     int    *owner;
     /* Brightness, 1 being full, and depth towards the eye, m (width x height). */
     float  *shade, *depth;
     /* Values of the pixels where triangles carry values, or NULL (width x height). */
     double *value;
 } pg_screen;
-/* Pixels that show no point: nothing at all; the body behind the selected points; the outline
- * of that body. */
+/* Values of pg_screen.owner for pixels that show no point: nothing at all; the body behind the
+ * selected points; the outline of that body. */
 enum { PG_EMPTY = -1, PG_GHOST = -2, PG_EDGE = -3 };
 /* Allocates an empty frame of that size in pixels; left, top and scale are the caller's. */
 pg_status pg_screen_open (pg_screen *s, int width, int height);
 void      pg_screen_close (pg_screen *s);
-/* Pixels across and down (not rounded) and depth of a place in space (3, m). */
+/* Projects a point x of space (3, m) to `at`: pixels across and down (not rounded), and depth (m). */
 void      pg_screen_place (const pg_screen *s, const pg_eye *eye, const double *x, double at[3]);
-/* 1 if such a place is not hidden behind what the screen shows there, to within slack (m). */
+/* 1 if a point projected to `at` (pg_screen_place) is not hidden by what the screen shows there, to within
+ * slack (m). */
 int       pg_in_sight (const pg_screen *s, const double *at, double slack);
 /* Draws a triangle with a depth buffer: each corner v has pixels across, pixels down and the
  * depth. Fills the pixels whose centre lies inside or on an edge unless something nearer to
@@ -189,19 +190,20 @@ typedef struct {
     double magnify;
     /* 1 for the points that are drawn (n); NULL: all of them. */
     const unsigned char *keep;
-    /* Damage (n): neighbours of which one is nearly whole never separate; NULL: not known. */
+    /* Damage (n): neighbours of which one is nearly intact (below 0.1) stay together; NULL: unknown. */
     const double *damage;
 } pg_solid;
 void      pg_solid_draw (const pg_solid *solid, pg_screen *screen);
 /* Draws the whole body behind the selected points as PG_GHOST with an outline PG_EDGE. */
 pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen);
-/* Are there cracks in space that have grown as triangles? */
+/* 1 if there are 3D cracks that have grown, which consist of triangles. */
 int       pg_cracks_grown (const pg_cracks *cracks);
-/* From where to where their coordinate `axis` goes inside the box of the body, in a unit (m). */
+/* Range of the coordinate `axis` of grown 3D cracks inside the box of the body, divided by `unit` (m). */
 void      pg_cracks_depth (const pg_cracks *cracks, const pg_grid *grid, int axis, double unit, double *low,
                            double *high);
-/* Draws the surfaces of cracks inside the box of the body, coloured by the values of the points nearest to
- * them or (value NULL) by the coordinate `axis` in a unit (m). The values are those of the pixels. */
+/* Draws the surfaces of grown 3D cracks inside the box of the body, coloured by the values of the points
+ * nearest to them or (value NULL) by the coordinate `axis` divided by `unit` (m). The values are stored per
+ * pixel (screen->value). */
 pg_status pg_cracks_draw  (const pg_solid *solid, pg_screen *screen, const pg_cracks *cracks,
                            const double *value, int axis, double unit);
 /* Fills the screen with the points whose cells the plane of an oblique section meets. */
@@ -245,16 +247,16 @@ enum { PG_CATEGORIES = 1023 };
 const char *pg_sheet_unit (const pg_sheet *p);
 /* Adds a margin to low and high, which are those of the body, and chooses the unit. */
 void pg_sheet_frame (pg_sheet *p);
-/* Before the fit: chooses the colour map and its ends over `panels` states of n values (NAN: not shown). If
- * values lie outside of them, the note says what share is inside and between which values all of them lie. */
+/* Chooses the colour map and its ends over `panels` states of n values (NAN: not shown); called before
+ * pg_sheet_fit. If values lie outside the ends, the note says what share is inside and how far all reach. */
 pg_status pg_sheet_colours (pg_sheet *p, const pg_picture_style *style, size_t panels, size_t n,
                             const double *value, double *low, double *high);
-/* After the fit: finds whether some of n values lie beyond the ends of the colour bar, which then ends in
- * arrows. */
+/* Finds whether some of n values lie beyond the ends of the colour bar, which then ends in arrows; called
+ * after pg_sheet_fit. */
 void pg_sheet_arrows (pg_sheet *p, size_t n, const double *value);
 /* Fixes the layout; low and high are the ends of the colour bar. */
 void pg_sheet_fit  (pg_sheet *p, const pg_picture_style *style, double low, double high);
-/* Pixels of the place (a, b) of the picture's plane (m) in a panel. */
+/* Converts the point (a, b) of the picture's plane (m) to pixels in a panel. */
 void pg_sheet_to   (const pg_sheet *p, size_t panel, double a, double b, double *px, double *py);
 /* Draws what belongs to the picture as a whole: colour bar or legend, note, title, and below a
  * solid the directions of the axes and its size. */
@@ -275,13 +277,13 @@ void pg_wire_box    (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid
 /* Draws the pre-cracks of an undeformed body; with a screen only what is not hidden behind it. */
 void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *grid,
                      const pg_cracks *cracks, const pg_screen *screen /* NULL: see-through */);
-/* Draws displaced faces of cracks: n lines of m places each (n x m x 2, m); NAN interrupts a
+/* Draws displaced faces of cracks: n lines of m points each (n x m x 2, m); NAN interrupts a
  * line. */
 void pg_wire_faces  (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size_t m, const double *place);
 /* Draws arrows along x, y and z with their names around the pixel (x, y). */
 void pg_wire_triad  (const pg_sheet *p, cairo_t *cr, double x, double y, double length);
 
-/* A bar with one dimension: the value over the (displaced) place, a curve per panel (bars.c). */
+/* Draws a 1D body as a chart: the value over the (displaced) coordinate, a curve per panel (bars.c). */
 pg_status pg_draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
                         const pg_picture_style *style);
 #endif

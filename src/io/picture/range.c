@@ -5,7 +5,7 @@
 #include "picture_private.h"
 #include <math.h>
 
-/* Places from both ends are counted in ascending order. */
+/* The values are sorted, and as many are left out at the lower as at the upper end. */
 pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high,
                             int *found)
 {

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Pictures of points in a plane: the body is divided into one part per point, without gaps
- * between the parts, as it was at rest (tiles.c) and as it is displaced (warp.c). Drawing a
+ * between the parts: the undeformed body in tiles.c, the displaced one in warp.c. Drawing a
  * rectangle around each point would leave gaps between irregular or displaced points and would
  * blur cracks. */
 #ifndef PG_PICTURE_TILES_H
 #define PG_PICTURE_TILES_H
 #include "picture_private.h"
 
-/* The points of one picture. The caller fills the first part, which stays the caller's;
- * pg_tiles_open makes the second part, which pg_tiles_close frees. */
+/* The points of one picture. The caller fills and keeps the fields up to `cracks`; pg_tiles_open
+ * makes those from `spacing` on, which pg_tiles_close frees. */
 typedef struct {                                       /* borrowed unless said otherwise */
     /* Number of points that are seen. */
     size_t  n;
-    /* Dimension of the body, 2 or 3 (a layer); loose = 1: the points lie on no lattice; moved = 1: places are
-     * those of displaced points. */
+    /* Dimension of the body, 2 or 3 (a layer); loose = 1: the points lie on no lattice; moved = 1: `place`
+     * holds displaced positions. */
     int     dim, loose, moved;
-    /* Places in the plane of the picture, m (n x 2). */
+    /* Positions of the points in the plane of the picture, m (n x 2). */
     double *place;
     /* Displacement in that plane times the magnification, m (n x 2), or NULL: undeformed. */
     const double *shift;
@@ -41,8 +41,7 @@ typedef struct {                                       /* borrowed unless said o
      * relative change of distance above which two damaged neighbours count as separated. */
     double *gradient, limit;
 } pg_tiles;
-/* Finds the points near pre-cracks. Fails on
- * missing memory only. */
+/* Finds the points near pre-cracks. Fails on missing memory only. */
 pg_status pg_tiles_open  (pg_tiles *t);
 void      pg_tiles_close (pg_tiles *t);
 /* Assigns each pixel of a new screen to the point it belongs to, the body being undeformed. */
@@ -53,15 +52,15 @@ pg_status pg_tiles_rest  (const pg_tiles *t, pg_screen *screen);
 pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
 
 /* After pg_tiles_draw with a shift, in 2D: where both faces of every crack are now, so that an opened crack
- * is drawn as two lines. *face: PG_FACE places (x 2, m) of each of *n faces, NAN outside the body and where a
+ * is drawn as two lines. *face: PG_FACE points (x 2, m) of each of *n faces, NAN outside the body and where a
  * short piece needs fewer; grown as needed, *cap numbers. */
 enum { PG_FACE = 129 };
 pg_status pg_tiles_faces (pg_tiles *t, double **face, size_t *n, size_t *cap);
 
-/* 1 if a place lies in the body; also 1 where there is no outline, or one that is a mesh. */
+/* 1 if the point `at` of the plane (m) lies in the body; also 1 if the outline is unknown or a mesh. */
 int       pg_tiles_inside (const pg_tiles *t, const double *at);
-/* 1 if a pre-crack passes between two places of the plane. */
+/* 1 if a pre-crack passes between the points a and b of the plane (m). */
 int       pg_tiles_cut   (const pg_tiles *t, const double *a, const double *b);
-/* The coordinates in space (3, m) of the place (a, b) of the plane. */
+/* Writes the coordinates in space (3, m) of the point (a, b) of the plane to x. */
 void      pg_tiles_space (const pg_tiles *t, double a, double b, double *x);
 #endif
