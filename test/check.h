@@ -14,17 +14,17 @@
 #include <string.h>
 #include "perigal/base.h"
 
-/* Whether tests are to be made in full size (PERIGAL_TEST_SIZE=long, make test-long). */
+/* 1 if the tests are to run in full size (PERIGAL_TEST_SIZE=long, make test-long). */
 static inline int longer (void)
 {
     const char *size = getenv ("PERIGAL_TEST_SIZE");
     return size && strcmp (size, "long") == 0;
 }
 
-/* it has another name in the program of a folder: test/main.c */
+/* renamed by the build when all tests of a folder become one program, which test/main.c starts */
 int main (void);
 
-/* |a - b| <= tolerance * max (|b|, scale); never true for NaN */
+/* Fails the test unless |a - b| <= tolerance * max (|b|, scale), which is never true for NaN. */
 static inline void check_near_at (double a, double b, double tolerance, double scale, const char *what,
                                   const char *file, int line)
 {
@@ -34,11 +34,12 @@ static inline void check_near_at (double a, double b, double tolerance, double s
                  size, tolerance);
     _fail (file, line);
 }
+/* check_near_at with scale 0, with scale 1 (for small numbers), and with a given scale. */
 #define check_relative(a, b, tolerance) check_near_at ((a), (b), (tolerance), 0, #a, __FILE__, __LINE__)
 #define check_absolute(a, b, tolerance) check_near_at ((a), (b), (tolerance), 1, #a, __FILE__, __LINE__)
 #define check_scaled(a, b, tolerance, scale) \
     check_near_at ((a), (b), (tolerance), (scale), #a, __FILE__, __LINE__)
-/* (small numbers: check_absolute compares |a - b| with tolerance * max (1, |b|)) */
+/* Fails the test, with the error message of the program, unless the call returns PG_OK. */
 #define check_ok(call) \
     do { \
         pg_status s_ = (call); \

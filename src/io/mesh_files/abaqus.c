@@ -89,7 +89,7 @@ static void add_parameter (reader *r, const char *s, const char *end)
     if (p->key[0]) r->nparameter++;
 }
 
-/* Parses a keyword line *KEYWORD, KEY=VALUE, KEY ...; one that ends with a comma continues on the next
+/* Parses a keyword line *KEYWORD, KEY=VALUE, KEY ...; after a comma at its end it goes on in the next
  * line. */
 static void read_keyword (reader *r)
 {

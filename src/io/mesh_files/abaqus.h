@@ -34,8 +34,7 @@ enum { ABAQUS_NAME = 64 };
 /* Members of a set: the numbers first, first + step, ... last. line: number of the line that names them, if a
  * member that does not exist is a fault, else 0. */
 typedef struct { long first, last, step, line; } abaqus_range;
-/* Special values of abaqus_range.step: the members of set number `first`; the nodes of element set
- * `first`. */
+/* Special values of abaqus_range.step: members of set number `first`; nodes of element set `first`. */
 enum { ABAQUS_SET = 0, ABAQUS_NODES_OF = -1 };
 /* A set; named: 1 if *ELEMENT or a section names it, so that it is a block. */
 typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_range *range; int named; } abaqus_set;

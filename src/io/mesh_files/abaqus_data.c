@@ -140,7 +140,7 @@ static pg_status set_line (reader *r, abaqus_sets *sets, const char *what)
             continue;
         }
         word[ABAQUS_NAME - 1] = 0;
-        /* A name: the set must exist, but may still grow. */
+        /* A word that is no number names a set, which must exist but may still grow. */
         int other = abaqus_set_find (sets, word);
         if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no %s set '%.63s' before this line", what, word));
         PG_TRY (abaqus_set_add (&sets->set[r->set], (abaqus_range) { other, other, ABAQUS_SET, 0 }));

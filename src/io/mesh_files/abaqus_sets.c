@@ -253,7 +253,7 @@ static pg_status resolve_sets (resolver *r)
         PG_TRY (emit_nodes (r, a->nset.set[k].name, (long) k + 1));
     }
     for (size_t k = 0; k < a->elset.n; k++) {
-        /* Blocks are known by their elements already; a node set of the same name is what the user means. */
+        /* A block becomes no node set, nor does an element set with the name of a node set of the file. */
         if (a->elset.set[k].named || abaqus_set_find (&a->nset, a->elset.set[k].name) >= 0) continue;
         forget (&r->node);
         PG_TRY (put_nodes_of (r, (int) k));

@@ -365,8 +365,7 @@ done:
     return status;
 }
 
-/* Reports the variables of nodes, of elements and of the whole file as skipped: they are no part of a
- * mesh. */
+/* Reports nodal, element and global variables as skipped: they are no part of a mesh. */
 static pg_status pass_results (const reader *r)
 {
     pg_status status = PG_OK;

@@ -332,8 +332,7 @@ done:
     return status;
 }
 
-/* 1 if the first line is a header ("1C"), a line of the user's ("1U") or the head of a block of nodes
- * ("2C"). */
+/* 1 if the first line is a header ("1C"), a user's line ("1U") or the head of a block of nodes ("2C"). */
 static int knows_frd (const mesh_file *file)
 {
     return file->size > 6

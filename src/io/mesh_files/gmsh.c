@@ -219,7 +219,7 @@ pg_status gmsh_kind (gmsh_reader *g, long type, long element, int dim, long grou
               "order 1",
               g->c.file->path, gmsh_at (g, at), element, what, type);
     *out = (gmsh_type) { .known = 0, .nodes = named ? other[k].nodes : 0 };
-    if (g->binary && !out->nodes)                      /* its length is not known either */
+    if (g->binary && !out->nodes)                      /* an element of unknown length cannot be skipped */
         PG_FAIL (PG_E_FILE, "%s", words);
     pg_mesh_builder_group_name (g->m, dim, group, block);
     PG_TRY (pg_mesh_builder_foreign (g->m, named ? strchr (what, ' ') + 1 : "of another kind", block, words));

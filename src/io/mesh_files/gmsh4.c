@@ -113,8 +113,7 @@ done:
     return status;
 }
 
-/* Reads an entity from a binary file: tag, bounding box and groups; the entities that bound it are
- * skipped. */
+/* Reads an entity from a binary file: tag, bounding box, groups; entities that bound it are skipped. */
 static pg_status entity_of_bytes (reader *r, int dim)
 {
     pg_status status = PG_OK;
@@ -184,7 +183,7 @@ static pg_status read_entities (reader *r, int parted)
         PG_TRY (gmsh_has_left (g, "the numbers of entities", 4, 8));
         for (int k = 0; k < 4; k++) count[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, "the numbers of entities", 4, count));
-    /* Points, curves, surfaces, volumes. */
+    /* dim: 0 points, 1 curves, 2 surfaces, 3 volumes. */
     for (int dim = 0; dim < 4; dim++)
         for (long k = 0; k < count[dim]; k++)
             PG_TRY (g->binary ? entity_of_bytes (r, dim) : entity_of_text (r, dim));
@@ -205,7 +204,7 @@ static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, l
         PG_TRY (gmsh_has_left (g, what, 4, 8));
         for (int k = 0; k < 4; k++) head[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, what, 4, head));
-    /* Members are counted down by the blocks; lowest and highest number are not needed. */
+    /* Each block subtracts its members from *members; lowest and highest number are not needed. */
     if (head[0] < 0 || head[1] < 0) GMSH_FAIL (g, "%s: %ld blocks with %ld members", what, head[0], head[1]);
     *blocks = head[0], *members = head[1];
 done:
@@ -231,8 +230,7 @@ done:
 }
 
 /* ---- nodes --------------------------------------------------------------------------------------------- */
-/* Reads n nodes: the file lists all numbers, then all positions; a second reader, `number`, reads the
- * numbers. */
+/* Reads n nodes: the file lists all numbers (read by a second reader, `number`), then all positions. */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -291,8 +289,7 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
-/* Gives the builder an element once for each group of its entity; the builder recognises repeated
- * elements. */
+/* Gives the builder an element once for each group of its entity; repeated elements are recognised. */
 static pg_status add_element (reader *r, const entity *e, const gmsh_type *t, long id, const long *node,
                               long line)
 {

@@ -21,8 +21,7 @@ size_t nc_size_of (int type)
     return type > 0 && type < (int) sizeof size ? size[type] : 0;
 }
 
-/* Reads an unsigned integer of `bytes` bytes, high byte first; w->broken is set where the file is too
- * short. */
+/* Reads an unsigned integer of `bytes` bytes, high byte first; w->broken is set if the file ends before. */
 static uint64_t whole (walker *w, size_t bytes)
 {
     uint64_t value = 0;
@@ -35,8 +34,7 @@ static uint64_t whole (walker *w, size_t bytes)
 /* Reads a count or a length: 8 bytes in version 5, otherwise 4. */
 static uint64_t number (walker *w) { return whole (w, w->f->version == 5 ? 8 : 4); }
 
-/* Reads a count of items of at least `least` bytes each; w->broken if the rest of the file cannot hold
- * them. */
+/* Reads a count of items of at least `least` bytes each; w->broken if the file is too short for them. */
 static size_t count (walker *w, size_t least)
 {
     uint64_t n = number (w);
@@ -176,8 +174,7 @@ static void settle_records (walker *w)
         with++;
     }
     if (with == 1) f->stride = bare;
-    /* A record count of all ones means that the writer did not know it; it then follows from the file
-     * size. */
+    /* A record count of all ones is an unknown one; it is computed from the size of the file. */
     uint64_t unknown = f->version == 5 ? ~(uint64_t) 0 : 0xffffffffu;
     if (f->records == unknown) f->records = f->stride ? (f->size - w->at) / f->stride : 0;
     if (f->records > f->size) w->broken = 1;

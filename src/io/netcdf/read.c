@@ -179,8 +179,7 @@ void pg_netcdf_swap (void *value, size_t n, size_t size)
 #endif
 }
 
-/* Converts n contiguous values of a file from a netCDF type into the array `to`; 0: one of them does not
- * fit. */
+/* Converts n contiguous values from a netCDF type into the array `to`; 0: one of them does not fit. */
 typedef int converting (const unsigned char *at, int type, size_t n, void *to);
 
 static int to_doubles (const unsigned char *at, int type, size_t n, void *to)
@@ -229,8 +228,7 @@ done:
     return status;
 }
 
-/* PG_E_FILE unless the variable has values first .. first + n - 1, and they are text or not as `text`
- * says. */
+/* PG_E_FILE unless values first .. first + n - 1 exist and are text (text 1) or numbers (text 0). */
 static pg_status check_range (const pg_netcdf *f, int variable, size_t first, size_t n, int text)
 {
     pg_status status = PG_OK;

@@ -24,8 +24,7 @@ typedef struct {
     const exodus_layout *l;
     netcdf_writer *file;
     int     dim;
-    /* Numbers of points; of nodes, which are the points and the corners of crack faces; of blocks of
-     * points. */
+    /* Numbers of points, of nodes (points and corners of crack faces), of blocks of points. */
     size_t  n, nodes, nblock;
     /* The different values of cloud->block, ascending (nblock). */
     int    *block;
@@ -256,8 +255,7 @@ done:
     return status;
 }
 
-/* Writes the block of crack faces, and the table which says that only this block has the variable
- * `exists`. */
+/* Writes the block of crack faces, and the table by which only this block has the variable `exists`. */
 static pg_status put_pieces (writer *w)
 {
     pg_status status = PG_OK;
@@ -298,8 +296,7 @@ done:
     return status;
 }
 
-/* Writes the numbers in the whole, from 1, of the nodes and of the elements, which are listed block by
- * block. */
+/* Writes the numbers in the whole, from 1, of the nodes and, block by block, of the elements. */
 static pg_status put_maps (writer *w)
 {
     pg_status status = PG_OK;
@@ -353,8 +350,7 @@ done:
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
-/* Lists in w->block the blocks of the whole that have points: every part has all of them, in the same
- * order. */
+/* Lists in w->block the blocks of the whole that have points; they are the same for every part. */
 static pg_status find_blocks_of_whole (writer *w)
 {
     pg_status status = PG_OK;

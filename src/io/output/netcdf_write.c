@@ -264,8 +264,7 @@ static void build (netcdf_writer *w, bytes *b)
     for (size_t k = 0; k < w->nvar; k++) append_variable (w, b, &w->var[k]);
 }
 
-/* Sets the offsets of the variables: from byte `at` on those without records, then those of the first
- * record. */
+/* Sets the offsets of the variables: from byte `at` on those without records, then the first record. */
 static void lay_out (netcdf_writer *w, uint64_t at)
 {
     for (int record = 0; record < 2; record++) {

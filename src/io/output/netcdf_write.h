@@ -15,8 +15,7 @@ int       netcdf_define_dimension (netcdf_writer *w, const char *name, size_t le
 /* Defines a variable over ndim dimensions, the record dimension first if it has it, and returns its number.
  * A second variable of the same name is a fault (PG_E_USAGE). */
 int       netcdf_define_variable (netcdf_writer *w, const char *name, int type, size_t ndim, const int *dim);
-/* Define an attribute of a variable (-1: of the file): a text, or n numbers of a type (float, double,
- * int). */
+/* Define an attribute of a variable (-1: of the file): a text, or n numbers (float, double or int). */
 void      netcdf_define_text    (netcdf_writer *w, int variable, const char *name, const char *text);
 void      netcdf_define_numbers (netcdf_writer *w, int variable, const char *name, int type, size_t n,
                                  const void *value);

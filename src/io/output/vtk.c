@@ -211,8 +211,7 @@ static int is_end (const char *end)
     return strcmp (end, "vtu") == 0 || strcmp (end, "vtu.new") == 0;
 }
 
-/* Removes the files of moments from `first` on, and all files of crack faces with their list
- * result.pvd.new. */
+/* Removes the files of moments from `first` on, and all files of crack faces and result.pvd.new. */
 static void drop (const char *folder, long first)
 {
     struct dirent *entry;

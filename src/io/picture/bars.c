@@ -2,8 +2,7 @@
  * Draws 1D bodies as a chart. */
 #include "picture_private.h"
 
-/* Draws the value over the (displaced) coordinate, one curve per panel, with the points sorted by
- * coordinate. */
+/* Draws the value over the (displaced) coordinate, by which the points are sorted; one curve per panel. */
 pg_status pg_draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
                         const pg_picture_style *style)
 {

@@ -49,8 +49,7 @@ void pg_cracks_depth (const pg_cracks *cracks, const pg_grid *g, int axis, doubl
     *low = (least - 0.5 * room) / unit, *high = (most + 0.5 * room) / unit;
 }
 
-/* State while crack surfaces are drawn: the body, the screen, and how points of a surface get their
- * values. */
+/* State while crack surfaces are drawn: the body, the screen, and how surfaces get their values. */
 typedef struct {
     const pg_solid *solid;
     pg_screen *screen;

@@ -19,8 +19,7 @@ static double direction_of (size_t n, const double *x)
     return most < 0 ? -1 : 1;
 }
 
-/* The envelope so far: m points (x, y), the largest sign x (top), the last state that counted (n: none
- * yet). */
+/* The envelope so far: m points (x, y), largest sign x (top), last state that counted (n: none yet). */
 typedef struct { double *x, *y, sign, top; size_t m, last; } envelope;
 
 /* Appends a state that goes beyond all before. Between two events all loads grow in proportion (linear),

@@ -16,7 +16,7 @@
 typedef struct {
     const pg_cloud *cloud;
     const pg_picture_style *style;
-    /* Number of panels, and their states. */
+    /* Number of panels, and the state (values, displacement, ...) that each of them shows. */
     size_t  n;
     const pg_panel *panel;
     /* 3D: the lattice of the points. */
@@ -136,8 +136,7 @@ done:
     return status;
 }
 
-/* Limits the range of an undeformed body to its outline: it does not end half a cell beyond its outer
- * points. */
+/* Limits the range of an undeformed body to its outline, not to half a cell beyond its outer points. */
 static void end_at_body (const drawing *d, const double *direction, double *low, double *high)
 {
     const pg_body *body = d->style->outline->body;
@@ -394,8 +393,7 @@ static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
     return PG_OK;
 }
 
-/* Draws one panel: pixels, then the box of the body if only selected points are drawn, cracks, frame,
- * title. */
+/* Draws one panel: pixels, the box of the body if only selected points are drawn, cracks, frame, title. */
 static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
 {
     pg_status status = PG_OK;
@@ -421,8 +419,7 @@ done:
     return status;
 }
 
-/* Returns the title with the position of the section added, for a 3D body of which no section was asked
- * for. */
+/* Returns the title and the position of the section, for a 3D body without a section in its style. */
 static const char *name_layer (drawing *d)
 {
     const char *given = d->style->title ? d->style->title : "";

@@ -26,7 +26,7 @@ enum {
     NOTE = 36
 };
 
-/* The margin is narrow; the unit is the largest of km, m, mm, µm, nm that is not larger than the body. */
+/* Adds a narrow margin; the unit is the largest of km, m, mm, µm, nm that is not larger than the body. */
 void pg_sheet_frame (pg_sheet *p)
 {
     static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
@@ -55,7 +55,7 @@ static double most_of (double share, int parts)
     return fmax (LEAST_FRAME, share / parts);
 }
 
-/* How many frames stand in a row when nobody said: wide bodies stand one above the other. */
+/* Default number of columns for n frames; frames of wide bodies stand one above the other. */
 static int usual_columns (int n, int wide)
 {
     static const int columns[] = { 1, 1, 2, 2, 2, 3, 3, 3, 3, 3 };
@@ -63,8 +63,8 @@ static int usual_columns (int n, int wide)
     return n < 10 ? columns[n] : 4;
 }
 
-/* Rows, columns and the size of one frame. The frame keeps the shape of the body unless it would become a
- * thin strip; a frame wider than the body keeps the scale. */
+/* Chooses rows, columns and the size of one frame. The frame has the shape of the body unless that would be a
+ * thin strip; then it is larger than the body, at an unchanged scale. */
 static void size_frame (pg_sheet *p)
 {
     double w = p->high[0] - p->low[0], h = p->high[1] - p->low[1];
@@ -146,7 +146,7 @@ static void corner_of (const pg_sheet *p, size_t panel, double *x, double *y)
     *y = p->top + (double) (panel / (size_t) p->columns) * p->pitch[1];
 }
 
-/* From metres in the plane of the picture to pixels. */
+/* Converts metres in the plane of the picture to pixels. */
 void pg_sheet_to (const pg_sheet *p, size_t panel, double a, double b, double *px, double *py)
 {
     double x, y;
@@ -162,7 +162,7 @@ static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
     pg_stroke (cr, 2, 0, 0, 0);
 }
 
-/* The pointed end of a colour bar beyond which there are values, in the colour that they have. */
+/* Draws the arrow at an end of the colour bar beyond which there are values, in the colour of that end. */
 static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
 {
     double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3], size = 0.6 * BAR;
@@ -184,7 +184,7 @@ static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
     pg_stroke (cr, 2, 0, 0, 0);
 }
 
-/* The colour bar as a gradient of 65 stops, with an arrow at an end beyond which there are values. */
+/* Draws the colour bar as a gradient of 65 stops, with an arrow at an end beyond which there are values. */
 static void draw_bar (const pg_sheet *p, cairo_t *cr)
 {
     double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3];
@@ -202,7 +202,7 @@ static void draw_bar (const pg_sheet *p, cairo_t *cr)
     pg_axis_draw (&p->bar, cr, x, y, w, h);
 }
 
-/* Names with their colours, in place of a colour bar: blocks and sets of a mesh. */
+/* Draws the names of blocks or sets of a mesh with their colours, in place of a colour bar. */
 static void draw_legend (const pg_sheet *p, cairo_t *cr)
 {
     double x = p->bar_at[0], y = p->bar_at[1], rgb[3];
@@ -217,7 +217,7 @@ static void draw_legend (const pg_sheet *p, cairo_t *cr)
     }
 }
 
-/* Below a view without axes: the directions of the axes and the size of the body's box. */
+/* Draws, below a view without axes, the directions of the axes and the size of the body's box. */
 static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
 {
     char text[160];
@@ -233,7 +233,7 @@ static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
     pg_text (cr, text, size, SIDE + 130, y, 0, 0, 1);
 }
 
-/* The line of text at the lower edge, made smaller if it is too long. */
+/* Draws the line of text at the lower edge, made smaller if it is too long. */
 static void draw_note (const pg_sheet *p, cairo_t *cr)
 {
     double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE,
@@ -243,8 +243,8 @@ static void draw_note (const pg_sheet *p, cairo_t *cr)
     pg_text (cr, p->note, size, 0.5 * p->total[0], p->total[1] - 0.5 * NOTE - 4, 0.5, 0, 1);
 }
 
-/* A range that leaves out stray values is only honest if the picture says so: how many points the colours
- * cover, and from where to where the values go. */
+/* Writes the note below the picture if some values lie outside the range of the colours (low, high): what
+ * share of the points the colours cover, and the range of all values. */
 static void leave_out (pg_sheet *p, const char *label, size_t n, const double *value, double low, double high)
 {
     double least = INFINITY, most = -INFINITY, slack = 1e-9 * (high - low), all = 0, in = 0;
@@ -267,8 +267,8 @@ static void leave_out (pg_sheet *p, const char *label, size_t n, const double *v
               floor (1000 * in / all) / 10, end[0], end[1]);
 }
 
-/* Ends of the colours over the values of all panels: as asked for, else what is shown; symmetric about zero
- * for a diverging map. */
+/* Finds the ends of the colour range for all panels: those of the style, else those of the values shown;
+ * symmetric about zero for a diverging map. */
 static pg_status range_of (const pg_picture_style *style, size_t panels, size_t n, const double *value,
                            double *low, double *high)
 {
@@ -319,7 +319,7 @@ void pg_sheet_arrows (pg_sheet *p, size_t n, const double *value)
     }
 }
 
-/* All that belongs to the sheet and not to one frame. */
+/* Draws all that belongs to the sheet and not to one frame. */
 void pg_sheet_draw (const pg_sheet *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid,
                     const pg_picture_style *style)
 {
@@ -334,7 +334,7 @@ void pg_sheet_draw (const pg_sheet *p, cairo_t *cr, const pg_cloud *cloud, const
                   p->total[0]);
 }
 
-/* Frame and title of a panel; axes along the left and the lower rim of the sheet only. */
+/* Draws frame and title of a panel; axes stand along the left and the lower edge of the sheet only. */
 void pg_panel_draw (const pg_sheet *p, cairo_t *cr, size_t panel, const char *title)
 {
     double x, y, size = PG_FONT;
@@ -372,8 +372,8 @@ static uint32_t pixel_of (const pg_sheet *p, const pg_screen *s, size_t at, cons
     return pixel;
 }
 
-/* All pixels, in rows of `stride` bytes. One that shows the same point as bright as the one before has its
- * colour, unless pixels have values of their own. */
+/* Colours all pixels, in rows of `stride` bytes. A pixel that shows the same point at the same brightness as
+ * the pixel before it gets the same colour, unless pixels have values of their own. */
 static void paint_pixels (const pg_sheet *p, const pg_screen *s, const double *value, unsigned char *bytes,
                           size_t stride)
 {

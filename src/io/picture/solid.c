@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Solids on pixels: a cube around each point, its faces drawn as triangles with a depth
+ * Draws 3D bodies: a cube around each point, its faces drawn as triangles with a depth
  * buffer, so that what is nearer to the eye hides what is behind. Faces between two cubes that
  * touch are not drawn.
  *
@@ -40,8 +40,8 @@ void pg_screen_place (const pg_screen *s, const pg_eye *e, const double *x, doub
     at[2] = pg_along (e->toward, x, 3);
 }
 
-/* 1 if a place (pixels and depth) is nearer than one of the nine pixels around it, but for
- * `slack`: the edges of a face must not vanish behind the face itself by rounding. */
+/* 1 if a point (pixels and depth) is not hidden at one of the nine pixels around it, to within
+ * `slack` (m): the edges of a face must not vanish behind the face itself by rounding. */
 int pg_in_sight (const pg_screen *s, const double *at, double slack)
 {
     for (int k = 0; k < 9; k++) {
@@ -93,11 +93,11 @@ float pg_light_on (const pg_eye *e, const double *normal)
     return (float) (0.70 + 0.30 * fmin (fmax (light, 0), 1));
 }
 
-/* Is there a point, and is it among those chosen? */
+/* 1 if there is a point (index >= 0) and it is one of those that are drawn. */
 static int kept (const pg_solid *s, int point) { return point >= 0 && (!s->keep || s->keep[point]); }
 
-/* Have the two points drifted apart by more than half a cell on the picture? Whole points never have,
- * however much displacements are magnified. */
+/* 1 if two points have separated: their displacements on the picture differ by more than half a cell. If one
+ * is nearly intact (damage below 0.1) they have not, however much displacements are magnified. */
 static int torn (const pg_solid *s, int i, int j)
 {
     if (s->damage && fmin (s->damage[i], s->damage[j]) < 0.1) return 0;
@@ -108,8 +108,8 @@ static int torn (const pg_solid *s, int i, int j)
     return 0;
 }
 
-/* Corner (0 or 1 along each axis) of the cube of point i in pixels, with its depth. The corner moves with
- * the mean displacement of the up to eight points around it that hold together with point i. */
+/* Projects a corner (0 or 1 along each axis) of the cube of point i to pixels and depth. The corner moves
+ * with the mean displacement of the up to eight points around it that have not separated from point i. */
 static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const int *cell, const int *corner,
                        double *out)
 {
@@ -133,8 +133,8 @@ static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const 
     pg_screen_place (screen, s->eye, x, out);
 }
 
-/* One face of a cube as two triangles; faces seen edge-on lie a little deeper, so that they do not flicker
- * over their neighbours. */
+/* Draws one face of a cube as two triangles; faces seen edge-on are set a little farther from the eye, so
+ * that they do not show over neighbouring faces. */
 static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *cell, int axis, int side)
 {
     static const int round[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -156,7 +156,7 @@ static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *c
     pg_triangle (screen, second, i, shade, NULL);
 }
 
-/* Only faces without a neighbour, or with one that has torn off, can be seen. */
+/* Only faces of a cube without a neighbour, or with one that has separated, are drawn. */
 void pg_solid_draw (const pg_solid *s, pg_screen *screen)
 {
     for (size_t i = 0; i < s->cloud->n; i++) {
@@ -210,8 +210,8 @@ done:
     return status;
 }
 
-/* An oblique plane through a lattice at rest: each pixel belongs to the cell that its place in space falls
- * into. */
+/* Draws an oblique plane through an undeformed lattice: each pixel shows the point of the cell that its
+ * position in space falls into. */
 void pg_slice_draw (const pg_grid *g, const pg_eye *e, pg_screen *s)
 {
     for (int j = 0; j < s->height; j++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The undeformed body on the pixels of its plane. Two questions are answered for each pixel:
+ * Draws the undeformed body on the pixels of its plane. Two questions are answered for each pixel:
  * is the body there, which its outline says, or the points alone where there is no outline;
  * and which point does it belong to: the nearest one that no pre-crack separates from it (a
  * Voronoi diagram that respects cracks).
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* From coordinates of the picture's plane to a place in space. */
+/* Converts the coordinates (a, b) of the picture's plane to a point x of space (all m). */
 void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
 {
     for (int k = 0; k < 3; k++)
@@ -35,7 +35,7 @@ done:
     return status;
 }
 
-/* Values of pg_tiles.cracked; a pixel whose point has not been found yet. */
+/* Values of pg_tiles.cracked; owner of a pixel whose point has not been found yet. */
 enum { NEAR_CRACK = 1, ON_CRACK, UNKNOWN = -10 };
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
@@ -47,8 +47,8 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
     return t->cracks && pg_cracks_cut (t->cracks, x, y, 0);
 }
 
-/* Does the point lie on a crack itself? Then it belongs to both sides; of a crack that is sided it does
- * not. */
+/* 1 if point k lies on a crack itself and so belongs to both of its sides; at a crack that is `sided` a point
+ * belongs to one side. */
 static int on_crack (const pg_tiles *t, size_t k)
 {
     double x[3];
@@ -61,8 +61,8 @@ static int on_crack (const pg_tiles *t, size_t k)
 }
 
 /* Marks the points with a pre-crack within about two spacings, found by 16 rays. Only these
- * need the costly question whether a crack lies between a pixel and a point. In the plane the
- * box about the rays tells of most points that no crack can be near. */
+ * need the costly test whether a crack lies between a pixel and a point. In 2D a test of the box
+ * around the rays excludes most points at once. */
 static pg_status find_cracked (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -102,8 +102,8 @@ void pg_tiles_close (pg_tiles *t)
 }
 
 /* ---- the outline --------------------------------------------------------------------------------------- */
-/* 1 if a place lies in a cell of the lattice that belongs to the body; the upper faces belong
- * to the last cells. */
+/* 1 if a point x of space lies in a cell of the lattice that belongs to the body; the upper faces
+ * of the lattice belong to the last cells. */
 static int in_lattice (const pg_lattice *l, const double *x)
 {
     size_t at = 0, stride = 1;
@@ -116,7 +116,7 @@ static int in_lattice (const pg_lattice *l, const double *x)
     return l->in[at];
 }
 
-/* Fills the pixels of a plane element as a fan of triangles through its nodes in their order
+/* Fills the pixels of a 2D element as a fan of triangles through its nodes in their order
  * around it; the sides of quadratic elements become two straight pieces. */
 static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
 {
@@ -137,7 +137,7 @@ static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
     }
 }
 
-/* Is the place in the body, as far as an outline says? */
+/* 1 if the point `at` of the plane lies in the shapes or lattice cells of the outline, or there are none. */
 int pg_tiles_inside (const pg_tiles *t, const double *at)
 {
     const pg_outline *o = t->outline;
@@ -148,8 +148,8 @@ int pg_tiles_inside (const pg_tiles *t, const double *at)
                                          : pg_body_inside (o->body, x, 1e-6 * t->widest);
 }
 
-/* 1: all pixels of a square are in the body, 0: none is, -1: not known: by its middle, which is in the body
- * or outside of it by more than half of the diagonal. Shapes tell how deep a place lies, lattices do not. */
+/* 1: all pixels of a square are in the body, 0: none is, -1: unknown. The centre decides if it lies inside or
+ * outside by more than half of the diagonal (`half`, m); only shapes, not lattices, give that depth. */
 static int whole_square (const pg_tiles *t, const double *middle, double half)
 {
     const pg_outline *o = t->outline;
@@ -160,7 +160,7 @@ static int whole_square (const pg_tiles *t, const double *middle, double half)
     return pg_body_inside (o->body, x, tolerance - half) ? 1 : -1;
 }
 
-/* Takes the pixels from the points whose centre does not lie in a body of shapes or cells, by squares. */
+/* Empties the pixels whose centre does not lie in the body of shapes or lattice cells, square by square. */
 static void keep_inside (const pg_tiles *t, pg_screen *s)
 {
     enum { SIDE = 12 };
@@ -178,7 +178,7 @@ static void keep_inside (const pg_tiles *t, pg_screen *s)
     }
 }
 
-/* Pixels that no element of a plane mesh covers. */
+/* Empties the pixels that no element of a 2D mesh covers. */
 static pg_status keep_covered (const pg_mesh *mesh, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -193,11 +193,11 @@ done:
 }
 
 /* ---- owners -------------------------------------------------------------------------------------------- */
-/* Offers point k to the pixels within `far` (m): the nearest point owns a pixel, and one across a pre-crack
- * only where there is no other; what lies on a crack is on both sides of it. On a lattice with unequal steps
- * distances are measured in steps, so that a pixel belongs to the cell that it lies in; where nothing else is
- * known of the body, its points have no pixels outside of their cells. Those of displaced points are a little
- * wider, which closes what strain opens. `depth` holds the squares of distances. */
+/* Offers point k to the pixels within `far` (m): the nearest point owns a pixel, and a point across a
+ * pre-crack only where there is no other; a point on a crack is on both sides of it. On a lattice with
+ * unequal steps distances are measured in steps, so that a pixel belongs to the cell that it lies in; without
+ * an outline, points own no pixels outside of their cells. The cells of displaced points are a little wider,
+ * to close gaps that strain opens. s->depth holds the squares of distances. */
 static void stamp (const pg_tiles *t, size_t k, double far, pg_screen *s)
 {
     const double *at = t->place + 2 * k, ratio = t->loose ? 1 : t->step[0] / t->step[1];
@@ -219,7 +219,7 @@ static void stamp (const pg_tiles *t, size_t k, double far, pg_screen *s)
         }
 }
 
-/* Pixels beyond the reach of every point take the nearest one. */
+/* Gives pixels that no point has reached to the nearest point. */
 static pg_status adopt (const pg_tiles *t, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -264,8 +264,8 @@ done:
 
 /* Radius of the discs that close the gaps, in spacings. */
 static const double grown = 1.25;
-/* How many pixels stay when the outline is drawn `rim` spacings outside the outer points; drop: the others
- * lose their owner. */
+/* Returns how many pixels lie inside an outline that is `rim` spacings outside the outer points; drop 1: the
+ * other pixels lose their owner. inward: distances in pixels from distance_to_nothing. */
 static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, double rim, int drop)
 {
     double n = 0;

@@ -22,7 +22,7 @@ double pg_along (const double *direction, const double *x, int dim)
 static const signed char side_axis[][2] = { { 0, 1 }, { 0, 1 }, { 2, 1 }, { 2, 1 }, { 0, 2 }, { 0, 2 } };
 static const signed char side_sign[][2] = { { 1, 1 }, { -1, 1 }, { 1, 1 }, { -1, 1 }, { 1, -1 }, { 1, 1 } };
 
-/* The eye looks along a coordinate axis: the picture has axes, `across` to the right and `up` upwards. */
+/* Sets an eye that looks along a coordinate axis: axis `across` to the right, `up` upwards. */
 static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
 {
     e->axis[0] = across, e->axis[1] = up, e->sign[0] = across_sign, e->sign[1] = up_sign;
@@ -31,9 +31,9 @@ static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
     e->framed = 1;
 }
 
-/* Looks along any direction, with y upwards; nearly along y with -z (from above) or z (from
- * below) upwards. An axis of the picture that happens to be a coordinate axis is noted, so
- * that its label can name it. */
+/* Sets an eye that looks along any direction, with y upwards; nearly along y with -z (from above)
+ * or z (from below) upwards. An axis of the picture that happens to be a coordinate axis is
+ * stored in e->axis, so that its label can name it. */
 static void look (pg_eye *e, const double *direction)
 {
     double size = sqrt (pg_along (direction, direction, 3)), vertical[3] = { 0, 1, 0 };
@@ -137,7 +137,7 @@ done:
     return status;
 }
 
-/* Keeps letters, digits and ". - _"; a stretch of anything else becomes one "_", none at the ends. */
+/* Keeps letters, digits and ". - _"; a run of other characters becomes one "_", none at the ends. */
 void pg_picture_name (char *out, size_t size, const char *text)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The displaced body on pixels: the pixels of each point, as they are in the undeformed body, are moved by
+ * Draws the displaced body: the pixels of each point, as they are in the undeformed body, are moved by
  *
  *   u(x) = u_o + grad u_o (x - x_o),
  *
- * where grad u_o is fitted to the displacements of the neighbours of point o that hold to it. Between
- * neighbours the two sides of this agree up to third differences of u, which leaves a pixel or two to be
- * closed near the tips of cracks.
+ * where grad u_o is fitted to the displacements of the neighbours of point o that have not separated from it.
+ * At the boundary between two neighbours their formulas agree up to third differences of u, which leaves a
+ * pixel or two to be closed near the tips of cracks.
  *
  * Two points have separated if a pre-crack passes between them or if their distance has
  * changed more than strain explains. Their pixels move apart, so that faces open. */
@@ -21,14 +21,14 @@ static double strain_of (const pg_tiles *t, size_t i, size_t j)
     return hypot (t->shift[2*j] - t->shift[2*i], t->shift[2*j + 1] - t->shift[2*i + 1]) / hypot (dx, dy);
 }
 
-/* Is one of the two points whole (damage below 0.1)? Damage that is not known says nothing. */
+/* 1 if one of the two points is nearly intact (damage below 0.1); 0 too if the damage is unknown. */
 static int sound (const pg_tiles *t, size_t i, size_t j)
 {
     return t->damage && fmin (t->damage[i], t->damage[j]) < 0.1;
 }
 
-/* 1 if two points have separated: a pre-crack passes between them, or neither is nearly whole
- * and their distance has changed by more than the limit. */
+/* 1 if two points have separated: a pre-crack passes between them, or neither is nearly intact and
+ * their relative displacement exceeds t->limit times their distance. */
 static int torn (const pg_tiles *t, size_t i, size_t j)
 {
     if (i == j) return 0;
@@ -36,9 +36,9 @@ static int torn (const pg_tiles *t, size_t i, size_t j)
     return !sound (t, i, j) && strain_of (t, i, j) > t->limit;
 }
 
-/* How much of a relative displacement is strain and no crack: three times the value that 95 of 100 pairs
- * of sound neighbours stay below. Where damage is not known, six times that of all pairs, and no less than
- * half a spacing on the picture. */
+/* Sets t->limit, up to which relative displacement over distance counts as strain and not as a crack: three
+ * times the value that 95 of 100 pairs of nearly intact neighbours stay below, at least 0.02. Where damage is
+ * unknown: six times that of all pairs, at least 0.5. */
 static pg_status find_limit (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -62,8 +62,8 @@ done:
     return status;
 }
 
-/* Gradient of the shift at each point, by least squares over the neighbours that hold to it; 0 where they
- * do not span the plane. */
+/* Computes the gradient of the displacement (t->shift) at each point by least squares over the neighbours
+ * that have not separated from it; 0 where they do not span the plane. */
 static pg_status find_gradients (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -91,7 +91,7 @@ done:
     return status;
 }
 
-/* Where a place of point o is now. */
+/* Displaces a position x in the part of point o to `to` (both 2, m). */
 static void move (const pg_tiles *t, size_t o, const double *x, double *to)
 {
     const double *g = t->gradient + 4 * o, dx = x[0] - t->place[2*o], dy = x[1] - t->place[2*o + 1];
@@ -99,17 +99,16 @@ static void move (const pg_tiles *t, size_t o, const double *x, double *to)
 }
 
 /* ---- faces of pre-cracks ------------------------------------------------------------------------------- */
-/* Does a pre-crack separate a point from a place? */
+/* 1 if a pre-crack separates a point from a position `place` of the plane. */
 static int separated (void *context, const double *place, size_t point)
 {
     const pg_tiles *t = context;
     return pg_tiles_cut (t, t->place + 2 * point, place);
 }
 
-/* Where n places along one face of a crack from a to b (m) are now: side 1: on the left of that direction, 0:
- * on the right; out: n x 2, m; NAN outside the body.
- * Places are taken a thousandth of a spacing beside the crack, on the side that is asked for,
- * so that they see the points of that side only. */
+/* Computes the displaced positions of n places along one face of a crack from a to b (m). side 1: the face on
+ * the left of that direction, 0: on the right; out: n x 2, m; NAN outside the body. The places lie a
+ * thousandth of a spacing beside the crack, so that they move with the points of that side only. */
 static void face_of (pg_tiles *t, const pg_nearest *nearest, const double *a, const double *b, int side,
                      size_t n, double *out)
 {
@@ -125,7 +124,7 @@ static void face_of (pg_tiles *t, const pg_nearest *nearest, const double *a, co
     }
 }
 
-/* Five places in a spacing of a short piece, none behind them. */
+/* A short crack gets about five places per spacing; the rest of its PG_FACE places are NAN. */
 pg_status pg_tiles_faces (pg_tiles *t, double **face, size_t *n, size_t *cap)
 {
     pg_status status = PG_OK;
@@ -149,7 +148,7 @@ done:
 }
 
 /* ---- pixels -------------------------------------------------------------------------------------------- */
-/* Owner of the pixel of a screen that holds a place. */
+/* Owner of the pixel that holds the position (a, b) of the plane (m); PG_EMPTY outside the screen. */
 static int owner_at (const pg_screen *s, double a, double b)
 {
     double i = floor ((a - s->left) * s->scale), j = floor ((s->top - b) * s->scale);
@@ -157,18 +156,19 @@ static int owner_at (const pg_screen *s, double a, double b)
     return s->owner[(size_t) j * (size_t) s->width + (size_t) i];
 }
 
-/* How far about a point, in spacings, neighbours lend it pixels. */
+/* Distance from a point, in spacings, up to which it may take over pixels of its neighbours. */
 static const double beyond = 1.1;
 
-/* May point o have a pixel that comes from a place x of another one? Only where that holds to it, and half a
- * spacing beyond its own pixels: what closes gaps between neighbours. */
+/* 1 if point o may have a pixel that comes from the undeformed position x in the part of point `other`, which
+ * closes gaps between neighbours: they have not separated, and x lies within `beyond` spacings of o. */
 static int lends (const pg_tiles *t, size_t o, const double *x, int other)
 {
     double dx = fabs (x[0] - t->place[2*o]), dy = fabs (x[1] - t->place[2*o + 1]);
     return other >= 0 && fmax (dx, dy) < beyond * t->spacing[o] && !torn (t, o, (size_t) other);
 }
 
-/* Pixels of the screen that the square of half edge r (m) about point o moves to; 0: they are nowhere. */
+/* Finds the box of pixels, from .. to, that the square of half edge r (m) around point o moves to; 0: the
+ * displaced square is not finite. */
 static int box_of (const pg_tiles *t, const pg_screen *s, size_t o, double r, int from[2], int to[2])
 {
     double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY }, at[2];
@@ -185,8 +185,9 @@ static int box_of (const pg_tiles *t, const pg_screen *s, size_t o, double r, in
     return isfinite (low[0] + low[1] + high[0] + high[1]);
 }
 
-/* Gives the pixels of the screen that come from those of point o, within r (m) of it, to it: each asks where
- * it comes from. spare: those that no point has got, from places of its neighbours. */
+/* Gives point o the pixels of the screen whose undeformed position, found by the inverse of `move`, belongs
+ * to it on the screen `rest`, within r (m) of it. spare 1: it gets pixels without owner that come from the
+ * parts of its neighbours. */
 static void move_part (const pg_tiles *t, const pg_screen *rest, size_t o, double r, int spare, pg_screen *s)
 {
     const double *g = t->gradient + 4 * o, *at = t->place + 2 * o, *u = t->shift + 2 * o;
@@ -206,7 +207,7 @@ static void move_part (const pg_tiles *t, const pg_screen *rest, size_t o, doubl
         }
 }
 
-/* All pixels of the body at rest, then those between parts that are apart. */
+/* Moves the parts of all points, then closes gaps between parts of neighbours that have not separated. */
 static pg_status move_all (const pg_tiles *t, const pg_screen *rest, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -226,8 +227,8 @@ done:
     return status;
 }
 
-/* The undeformed body on a screen of its own, 1.5 times as fine as the picture (its longer
- * side at most 3000 pixels), with an edge wider than what the points reach. */
+/* Draws the undeformed body on a screen of its own, 1.5 times as fine as the picture (its longer
+ * side at most 3000 pixels), with a margin of 1.6 spacings around the points. */
 static pg_status open_rest (const pg_tiles *t, const pg_screen *screen, pg_screen *rest)
 {
     pg_status status = PG_OK;
@@ -248,7 +249,7 @@ done:
     return status;
 }
 
-/* Without displacements the screen shows the body at rest. */
+/* Copies the undeformed body to the screen of the picture, for pictures without displacements. */
 static void copy (const pg_screen *rest, pg_screen *s)
 {
     for (int j = 0; j < s->height; j++)
@@ -257,7 +258,8 @@ static void copy (const pg_screen *rest, pg_screen *s)
                 owner_at (rest, s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale);
 }
 
-/* Loose points are drawn with room about them, as what closes their gaps may reach beyond the screen. */
+/* Points on no lattice are drawn on a larger screen first, as the discs that close their gaps may reach
+ * beyond the picture. */
 pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
 {
     pg_status status = PG_OK;

@@ -6,14 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Pixels of a place in space (3, m) in a panel. */
+/* Converts a point x of space (3, m) to pixels in a panel. */
 static void project (const pg_sheet *p, size_t panel, const double *x, double *px, double *py)
 {
     pg_sheet_to (p, panel, pg_along (p->eye.right, x, 3), pg_along (p->eye.up, x, 3), px, py);
 }
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
-/* Adds the polyline of a plane crack to the path. */
+/* Adds the polyline of a 2D crack to the path. */
 static void path_2d (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_crack *crack)
 {
     double px, py;
@@ -63,9 +63,9 @@ static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
-/* Adds a line in space to the path, inside the box, and where a screen is given only what is
- * in sight, tested at 200 places, to within one and a half cells, since cubes around points are coarser than
- * the crack. */
+/* Adds the line from a to b in space to the path, inside the box. With a screen only what is visible is
+ * added, tested at 201 points to within one and a half cells, since cubes around points are coarser than the
+ * crack. */
 static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                           const pg_screen *screen, const double *a, const double *b)
 {
@@ -108,8 +108,8 @@ static void path_of_rim (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
-/* Adds what a view shows of one crack: the crack itself, its cut with the section or with the
- * face looked at, or its outline in space. */
+/* Adds what a view shows of one crack: the crack itself (2D), its cut with the section or with the
+ * face of the box towards the eye, or its outline in space. */
 static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                            const pg_screen *screen, const pg_crack *crack)
 {
@@ -118,7 +118,7 @@ static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const p
     else if (e->kind != PG_SOLID)
         path_of_cut (p, cr, panel, g, crack, e->toward, e->cut < 0 || e->toward[e->cut] > 0 ? e->at : -e->at);
     else if (!e->framed) path_of_rim (p, cr, panel, g, screen, crack);
-    else {                                             /* the face looked at */
+    else {                                             /* cut with the face towards the eye */
         double far = pg_along (e->toward, g->high, 3), near = pg_along (e->toward, g->low, 3),
                size = fmax (fmax (g->step[0], g->step[1]), g->step[2]);
         path_of_cut (p, cr, panel, g, crack, e->toward, fmax (far, near) - 1e-6 * size);
