@@ -421,7 +421,7 @@ done:
     return status;
 }
 
-/* The first line that is neither empty nor a comment, nor a lone asterisk, begins with * and a letter. */
+/* 1 if the first line that is not empty, a comment or a lone asterisk begins with * and a letter. */
 static int knows_abaqus (const mesh_file *file)
 {
     mesh_cursor c = mesh_begin (file);

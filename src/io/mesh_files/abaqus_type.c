@@ -44,7 +44,7 @@ static const struct { const char *base; abaqus_type type;
     { "R2D2", { PG_BAR2, 2, 0 } },
 };
 
-/* Names to suggest for unknown ones. */
+/* Names of element types to suggest for an unknown one. */
 static const char *const known = "C3D4|C3D5|C3D6|C3D8|C3D10|C3D15|C3D20|CPS3|CPS4|CPS6|CPS8|"
                                  "CPE3|CPE4|CPE6|CPE8|"
                                  "C2D3|C2D4|C2D6|C2D8|M3D3|M3D4|M3D6|M3D8|"

@@ -439,7 +439,7 @@ static void split_name (const char *name, variable *v)
         if (strcasecmp (bar + 1, suffix[k]) == 0) v->part = part[k], v->base[bar - name] = 0;
 }
 
-/* Are these components of one field? */
+/* 1 if two variables are components of one field. */
 static int together (const variable *a, const variable *b)
 {
     return a->part >= 0 && b->part >= 0 && a->part / 10 == b->part / 10 && strcmp (a->base, b->base) == 0;

@@ -284,11 +284,11 @@ static pg_status read_block (reader *r)
     PG_TRY (block_head (r, "values", 24, 73, &b.nodes, &b.format));
     if (!real (r, 12, 12, &b.value)) MESH_FAIL (&r->c, "results without a time");
     whole (r, 58, 5, &b.number);
-    /* The line behind the head has the name and the number of components, */
+    /* The line behind the head has the name and the number of components. */
     if (!next (r) || !is_key (r, " -4") || !whole (r, 13, 5, &n) || n < 1 || n > MOST_COMPONENTS)
         MESH_FAIL (&r->c, "a block of results begins with its name and 1 to %d components", MOST_COMPONENTS);
     word (r, 5, 8, b.name, sizeof b.name);
-    /* and each component has a line, with a 1 if it is not stored but computed by the viewer. */
+    /* Each component has a line, with a 1 if it is not stored but computed by the viewer. */
     for (given = 0; given < n; given++) {
         if (!next (r) || !is_key (r, " -5"))
             MESH_FAIL (&r->c, "%s has %ld of %ld components", b.name, given, n);

@@ -32,7 +32,7 @@ typedef struct pg_checkpoint checkpoint;
 /* Bytes of one value. */
 static size_t size_of (int type) { return type == PG_NC_BYTE ? 1 : 8; }
 
-/* Adds name, length and type of a variable to the sum. */
+/* Adds name, length and type of a variable to the checksum. */
 static void sum_head (checkpoint *c, const char *name, size_t n, int type)
 {
     const uint64_t head[2] = { (uint64_t) n, (uint64_t) type };
@@ -119,7 +119,7 @@ static pg_keeper keeper_of (checkpoint *c, int reading)
     return (pg_keeper) { c, reading, keep_numbers, keep_counts, keep_bytes };
 }
 
-/* Adds a variable of the file to the sum, read in pieces of 64 KiB. */
+/* Adds a variable of the file, read in pieces of 8192 values, to the checksum. */
 static pg_status sum_variable (checkpoint *c, int var)
 {
     pg_status status = PG_OK;
