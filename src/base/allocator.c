@@ -17,8 +17,8 @@
 /* Bytes by which the heap grows; bytes of a large page; the smallest block that asks for such pages. */
 enum { HEAP_STEP = 64 << 20, PAGE = 1 << 21, LARGE = 1 << 16 };
 
-/* Where large pages were asked for last, so that blocks that lie there do not ask again. Any thread may see
- * the ends of two different requests: then one is made that is not needed, or pages stay small. */
+/* Addresses, first and end, for which large pages were requested last: blocks between them do not ask again.
+ * A thread may see the ends of two different requests: then it asks once too often, or pages stay small. */
 static atomic_uintptr_t asked[2];
 
 /* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. It grows by 64 MiB at a
@@ -36,9 +36,9 @@ void pg_memory_keep (void)
 #endif
 }
 
-/* The request covers all large pages that the block touches, and what the heap has behind: small blocks
- * there profit too. What it grows by later asks again. Whether pages are granted is the system's affair, so
- * that the answer is not looked at. */
+/* The request covers all large pages that the block touches, and the heap behind the block, where small
+ * blocks will lie. A heap that has grown since is asked for again. Whether the system grants large pages is
+ * not checked, as nothing depends on it. */
 void pg_memory_large (void *block, size_t bytes)
 {
 #if defined (MADV_HUGEPAGE)

@@ -4,8 +4,8 @@
 #include "perigal/base.h"
 #include <math.h>
 
-/* Column by column. A pivot is compared with the diagonal entry it came from: the loss of digits by
- * cancellation is what makes it worthless, whatever the scale of the row. */
+/* Factorises column by column. A pivot is compared with the diagonal entry it came from: the loss of digits
+ * by cancellation is what makes it worthless, whatever the scale of the row. */
 int pg_dense_cholesky (int n, double *A, double tiny)
 {
     for (int j = 0; j < n; j++) {
@@ -58,7 +58,8 @@ static void rotate (int n, double *M, double *V, int p, int q)
     }
 }
 
-/* Largest first: the diagonal of M into lambda, the columns of W with it (selection sort). */
+/* Sorts the eigenvalues on the diagonal of M into lambda, largest first, and with them the eigenvectors, the
+ * columns of W (selection sort). */
 static void sort_eigen (int n, double *M, double *W, double *lambda)
 {
     for (int i = 0; i < n; i++) {

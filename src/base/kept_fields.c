@@ -5,7 +5,8 @@
 #include <stdio.h>
 
 enum { LONGEST_NAME = 128 };
-/* What one walk over all fields does. */
+/* What a walk over all fields does: copies them into arrays, checks arrays that were read, copies them
+ * back. */
 typedef enum { GIVE, CHECK, TAKE } deed;
 
 pg_status pg_kept_within (const char *what, long value, long low, long high)
@@ -50,7 +51,8 @@ static void set (void *array, pg_kept_type type, size_t j, long value)
     }
 }
 
-/* One field of one struct: its values from or to the next places of the two arrays. */
+/* Copies the values of one field to (GIVE) or from (TAKE) the next entries of the two arrays, or checks
+ * these; moves both pointers on. */
 static pg_status visit (deed what, const pg_kept *row, void *at, long **count, double **number)
 {
     pg_status status = PG_OK;

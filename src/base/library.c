@@ -14,7 +14,7 @@
 #include <pthread.h>
 #include <string.h>
 
-/* One thread at a time loads. */
+/* Held by the thread that loads a library. */
 static pthread_mutex_t loading = PTHREAD_MUTEX_INITIALIZER;
 
 /* Looks up all functions and writes them into the table. A pointer to a function is copied by its bytes:
@@ -46,7 +46,7 @@ pg_status pg_library_load (pg_library *library)
     pthread_mutex_lock (&loading);
     if (library->ready) goto done;
     pg_signals before;
-    pg_signals_hold (&before);                         /* in threads that it starts */
+    pg_signals_hold (&before);                         /* threads that the library starts block signals */
     void *handle = dlopen (library->file, RTLD_LAZY | (library->shared ? RTLD_GLOBAL : RTLD_LOCAL));
     pg_signals_release (&before);
     if (!handle) {

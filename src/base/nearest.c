@@ -8,7 +8,7 @@
 /* Longer names are not compared. */
 enum { LONGEST = 64 };
 
-/* Small letter. */
+/* Returns a letter in lower case. */
 static int lower (char c) { return tolower ((unsigned char) c); }
 
 /* Optimal string alignment distance of a (na bytes) and b (nb bytes). */

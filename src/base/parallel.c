@@ -39,14 +39,14 @@ typedef struct {
 /* The threads of this process, and the one loop at a time that they work at. One for all: threads are a
  * resource of the process, and solvers that had threads of their own would get in each other's way. */
 static struct {
-    helper helper[MAX_THREADS];                        /* 1 .. started - 1 */
+    helper helper[MAX_THREADS];                        /* entries 1 .. started - 1 are in use */
     int    started;                                    /* threads there are, the caller's among them */
-    int    looks;                                      /* before going to sleep; 0: one core */
+    int    looks;                                      /* at a variable before going to sleep; 0: one core */
     pthread_once_t  once;
     pthread_mutex_t gate;                              /* held during a loop */
     pthread_mutex_t end_lock;
     pthread_cond_t  end;                               /* the last thread has done its part */
-    atomic_uint     unfinished;                        /* parts of the loop that are under way elsewhere */
+    atomic_uint     unfinished;                        /* parts of the loop that other threads have to do */
 } pool = { .started = 1, .looks = -1, .once = PTHREAD_ONCE_INIT, .gate = PTHREAD_MUTEX_INITIALIZER,
            .end_lock = PTHREAD_MUTEX_INITIALIZER, .end = PTHREAD_COND_INITIALIZER };
 /* 1: this thread is running a part of a loop. */
@@ -96,7 +96,7 @@ static int watch (atomic_uint *variable, unsigned from)
     return 0;
 }
 
-/* ---- threads that wait --------------------------------------------------------------------------------- */
+/* ---- helper threads ------------------------------------------------------------------------------------ */
 /* Main function of a helper. The lock is taken even where the job was seen without it, because `quit` and
  * `job` are written under it. */
 static void *serve (void *p)
@@ -130,7 +130,7 @@ static void give_turn (helper *h, int quit)
     pthread_cond_signal (&h->wake);
 }
 
-/* In a child of fork none of these threads exist: as at the start. */
+/* Called in a child of fork, where no helper thread exists: resets the pool to its state at the start. */
 static void forget (void)
 {
     pool.started = 1;
@@ -140,14 +140,14 @@ static void forget (void)
     pthread_cond_init (&pool.end, NULL);
 }
 
-/* Once per process. With one processor, waiting awake would only take time from the others. */
+/* Runs once per process. With one processor, waiting awake would only take time from the other threads. */
 static void prepare (void)
 {
     pthread_atfork (NULL, NULL, forget);
     pool.looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS + YIELDS : 0;
 }
 
-/* At exit, and where the library is unloaded: no thread may be left in its code. */
+/* Ends all helpers at exit, and when the library is unloaded: no thread may be left in its code. */
 __attribute__ ((destructor)) static void dismiss (void)
 {
     /* The process exits from within a loop: threads are still at work. */
@@ -163,7 +163,7 @@ static void hire (int threads)
 {
     pg_signals before;
     pthread_once (&pool.once, prepare);
-    pg_signals_hold (&before);                         /* a thread takes this from the one that starts it */
+    pg_signals_hold (&before);                         /* a new thread inherits the signal mask */
     for (; pool.started < threads; pool.started++) {
         helper *h = &pool.helper[pool.started];
         atomic_store (&h->turn, 0);
@@ -231,7 +231,7 @@ void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context)
     for (int k = 0; k < threads; k++)
         jobs[k] = (job){ work, context, n * (size_t) k / (size_t) threads,
                          n * (size_t) (k + 1) / (size_t) threads, k };
-    /* On one thread: loops inside may use others. */
+    /* One part only: loops inside it may use other threads. */
     if (threads == 1) work (context, 0, n, 0);
     else if (inside) {
         for (int k = 0; k < threads; k++) run (&jobs[k]);

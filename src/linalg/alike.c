@@ -4,13 +4,13 @@
 #include "alike.h"
 #include <math.h>
 
-/* Of the largest number of a row. */
+/* Largest difference between alike rows, as a share of the largest number of the row. */
 static const float rounding = 1e-6f;
 
-/* Of a matrix: couplings of each row, their nodes, `width` values for each. */
+/* Rows of a matrix: first coupling of each row, node of each coupling, `width` values of each coupling. */
 typedef struct { const size_t *start; const int *node; const float *value; size_t width; } rows;
 
-/* Is row i that of `first`, with the same shift? */
+/* Is row i like row `first`, with all nodes shifted by i - first? most: largest number of row `first`. */
 static int is_alike (const rows *A, size_t first, size_t i, float most)
 {
     size_t a = A->start[first], b = A->start[i], m = A->start[first + 1] - a;
@@ -30,7 +30,7 @@ static float largest (const rows *A, size_t i)
     return most;
 }
 
-/* The longest run that begins at a row, or the row is left to itself. */
+/* Takes the longest run that begins at a row; if that is too short, the row is in no run. */
 pg_status rows_alike (pg_row_runs *out, size_t least, size_t n, const size_t *start, const int *node,
                       const float *value, size_t width)
 {

@@ -6,10 +6,10 @@
 #define PG_LINALG_ALIKE_H
 #include "perigal/linalg.h"
 
-/* Runs from row 0 on, ascending; `least` rows each at least. Rows that are in none are left to themselves.
- * Values (width of them for each coupling) may differ by what floats can tell apart. */
+/* Finds the runs of alike rows, ascending, each of at least `least` rows; other rows are in no run. value:
+ * `width` numbers for each coupling, which may differ between alike rows by rounding errors of floats. */
 pg_status rows_alike (pg_row_runs *out, size_t least, size_t n, const size_t *start, const int *node,
                       const float *value, size_t width);
-/* The first run that ends behind a row; out->n: none. */
+/* Returns the index of the first run that ends behind `row`; runs->n: none does. */
 size_t    rows_alike_at (const pg_row_runs *runs, size_t row);
 #endif

@@ -2,22 +2,22 @@
  * Assembly of a symmetric matrix of dense node blocks, K_IJ = sum over sources and their points p of the
  * blocks K_ab (p) with a, b the local numbers of I, J in p.
  *
- * The pattern is found once: nodes I and J are coupled if some point sees both. Values are gathered row by
- * row: the row of node I collects from all points that see I (by the inverse lists), in the same order
- * every time. Hence no two threads write to the same place, the sums do not depend on the number of
- * threads, and a few rows can be redone after bonds broke with the same bits as in a new assembly. The
+ * The pattern is found once: nodes I and J are coupled if some point has both in its list. Values are
+ * gathered row by row: the row of node I collects from all points that have I (by the inverse lists), in the
+ * same order every time. Hence no two threads write to the same place, the sums do not depend on the number
+ * of threads, and a few rows can be redone after bonds broke with the same bits as in a new assembly. The
  * price is that the blocks of a point are asked for row by row. */
 #include "perigal/linalg.h"
 #include "wide.h"
 #include <stdint.h>
 #include <string.h>
 
-/* The inverse of a list of points: for each node the points that see it, and its local number in each. In 32
- * bits, as nodes are: these lists are as long as all bonds together. */
+/* Inverse of the lists of nodes of all points: for each node the points whose list has it, and its local
+ * number in each list. Numbers have 32 bits, as those of nodes: the arrays are as long as there are bonds. */
 typedef struct { size_t *start; uint32_t *point, *local; } inverse;
 
 struct pg_assembly {
-    /* Numbers of nodes and sources; the most nodes that one point sees. */
+    /* Numbers of nodes and of sources; the most nodes in the list of one point. */
     size_t     n, nsource, widest;
     /* Unknowns per node. */
     int        block;
@@ -52,8 +52,8 @@ done:
     return status;
 }
 
-/* Adds those of n nodes to the neighbours of I that are not among them yet: mark[J] = I + 1 once J has been
- * found. Counts alone where `list` is NULL. */
+/* Adds to the `count` neighbours of I those of n nodes that are not among them yet (mark[J] = I + 1: J is).
+ * Returns their new number; list NULL: only counts. */
 static size_t add_nodes (size_t I, size_t n, const int *node, size_t *mark, size_t count, int *list)
 {
     for (size_t b = 0; b < n; b++) {
@@ -81,7 +81,7 @@ static size_t neighbours (const pg_assembly *K, size_t I, size_t *mark, int *nod
             count = add_nodes (I, K->inverse[s].local[k] + 1,
                                f->node + f->start[K->inverse[s].point[k]], mark, count, node);
     }
-    /* A node that no point sees keeps its diagonal, so that the matrix has a full diagonal. */
+    /* A node that is in no list is coupled with itself, so that the matrix has a full diagonal. */
     if (mark[I] != I + 1) {
         if (node) node[count] = (int) I;
         count++;
@@ -170,7 +170,7 @@ done:
     return status;
 }
 
-/* The pattern alone; values come by pg_assembly_gather. */
+/* Finds the pattern alone; values come by pg_assembly_gather. */
 pg_status pg_assembly_create (pg_assembly **out, size_t n, int block, size_t nsource,
                                const pg_assembly_source *sources)
 {
@@ -185,7 +185,7 @@ done:
     return status;
 }
 
-/* The graph is `lower` itself, as columns. */
+/* The couplings `lower` are copied as the columns of the graph. */
 pg_status pg_assembly_graph (pg_sparse *out, size_t n, size_t nlist, const pg_adjacency *const *lists)
 {
     pg_status status = PG_OK;
@@ -207,7 +207,7 @@ done:
     return status;
 }
 
-/* The nodes that a node sees are its couplings: nothing has to be inverted. */
+/* The list of a node holds the nodes that it is coupled with: nothing has to be inverted. */
 pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *f)
 {
     pg_status status = PG_OK;
@@ -252,8 +252,8 @@ void pg_assembly_free (pg_assembly **K)
 pg_sparse *pg_assembly_matrix (pg_assembly *K) { return &K->K; }
 
 /* ---- gather -------------------------------------------------------------------------------------------- */
-/* Workspaces of a thread: where each node stands in the row at hand (n), what one point gives, and the sums
- * of a source that finishes them. */
+/* Workspaces of a thread: position of each node in the present row (n), blocks of one point, and the summed
+ * block row of a source that gives block rows. */
 typedef struct { size_t *slot; double *blocks, *sum; } workspace;
 /* Workspaces of all threads, one after the other: n, nblocks, nsum numbers each. list: rows (NULL: all). */
 typedef struct {
@@ -264,7 +264,7 @@ typedef struct {
 } gathering;
 
 /* Adds block (I, J), row-major m x m, transposed into the columns of node I; `slot` is the place of J among
- * the rows of these columns. */
+ * the block rows of these columns. */
 static void add_block (pg_assembly *K, size_t I, size_t J, size_t slot, const double *block)
 {
     size_t m = (size_t) K->block;
@@ -283,8 +283,8 @@ static inline __attribute__ ((always_inline)) void add_numbers (size_t n, const 
     for (; k < n; k++) to[k] += from[k];
 }
 
-/* Adds block rows of the first m nodes of a point (`part`) to rows of `wide` numbers: nodes whose places
- * follow each other at once. */
+/* Adds the block row of a point for its first m nodes (`part`) to rows of `wide` numbers (`sum`): nodes with
+ * consecutive slots are added in one go. */
 PG_WIDE static void add_rows (size_t block, size_t m, const int *node, const size_t *slot,
                               const double *part, size_t wide, double *sum)
 {
@@ -296,8 +296,8 @@ PG_WIDE static void add_rows (size_t block, size_t m, const int *node, const siz
     }
 }
 
-/* Adds what a source that gives block rows has for the columns of node I: the last block, that of I itself,
- * by its upper triangle. */
+/* Adds to the columns of node I the contribution of a source that gives block rows; of the last block, which
+ * couples I with itself, only the upper triangle. */
 static void gather_sums (pg_assembly *K, size_t source, size_t I, const workspace *w)
 {
     const pg_assembly_source *s = &K->source[source];
@@ -318,7 +318,7 @@ static void gather_sums (pg_assembly *K, size_t source, size_t I, const workspac
     }
 }
 
-/* Adds the columns of node I of another assembly, whose couplings are among those at hand. */
+/* Adds the columns of node I of another assembly, `known`, whose couplings are among those of K. */
 static void add_known (pg_assembly *K, const pg_assembly *known, size_t I, const size_t *slot)
 {
     size_t m = (size_t) K->block, from = known->lower.start[I], count = known->lower.start[I + 1] - from;
@@ -373,7 +373,7 @@ static void gather (void *context, size_t first, size_t last, int thread)
     for (size_t k = first; k < last; k++) gather_row (g->K, g->list ? (size_t) g->list[k] : k, &w);
 }
 
-/* Numbers of the longest row of blocks, where a source sums them. */
+/* Returns how many numbers the longest block row of K has; 0 if no source gives block rows. */
 static size_t longest_sum (const pg_assembly *K)
 {
     size_t most = 0;

@@ -9,7 +9,7 @@
 #include "wide.h"
 #include <string.h>
 
-/* Unknowns of a node at most; rows at a time that are alike, and of a run at least. */
+/* Most unknowns of a node; alike rows that are multiplied at a time; least rows of a run of alike rows. */
 enum { MOST_BLOCK = 6, LANES = 8, LEAST = 3 };
 
 void pg_block_clear (pg_block_matrix *A)
@@ -21,7 +21,8 @@ void pg_block_clear (pg_block_matrix *A)
 }
 
 /* ---- pattern ------------------------------------------------------------------------------------------- */
-/* Elements of each node (of: n + 1, element), and a list of nodes for each thread. */
+/* Elements of each node: element[of[i]] to element[of[i + 1] - 1] for node i; a list of nodes for each
+ * thread. */
 typedef struct {
     pg_block_matrix *A;
     const pg_adjacency *elements;
@@ -30,8 +31,8 @@ typedef struct {
     int   **list;
 } pattern;
 
-/* Sorts a short list: by insertion, as most of it comes in ascending pieces. Returns how many numbers differ,
- * which are then in front. */
+/* Sorts a short list and drops repeated numbers: by insertion, as most of it comes in ascending pieces.
+ * Returns how many numbers are left. */
 static size_t sort_unique (int *a, size_t n)
 {
     size_t m = 0;
@@ -46,7 +47,7 @@ static size_t sort_unique (int *a, size_t n)
     return m;
 }
 
-/* Nodes of row i, ascending. */
+/* Lists the nodes of row i, ascending; returns their number. */
 static size_t collect (const pattern *p, size_t i, int *out)
 {
     const pg_adjacency *e = p->elements;
@@ -66,7 +67,7 @@ static void count_rows (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) p->A->start[i + 1] = collect (p, i, p->list[thread]);
 }
 
-/* Writes them, once it is known where. */
+/* Writes the couplings of each node, once A->start says where. */
 static void fill_rows (void *context, size_t first, size_t last, int thread)
 {
     const pattern *p = context;
@@ -76,7 +77,7 @@ static void fill_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Elements of each node, ascending; returns the most nodes that one row can have. */
+/* Finds the elements of each node, ascending; returns the most nodes that one row can have. */
 static size_t invert (pattern *p, size_t n)
 {
     const pg_adjacency *e = p->elements;
@@ -129,7 +130,7 @@ done:
 }
 
 /* ---- values -------------------------------------------------------------------------------------------- */
-/* Place of node j in row i; the pattern holds it. */
+/* Returns the index of the coupling of row i with node j, which is in the pattern. */
 static size_t place (const pg_block_matrix *A, size_t i, int j)
 {
     size_t low = A->start[i], high = A->start[i + 1];
@@ -165,14 +166,14 @@ void pg_block_add_diagonal (pg_block_matrix *A, size_t unknown, double value)
 /* ---- products ------------------------------------------------------------------------------------------ */
 typedef struct { const pg_block_matrix *A; const double *x; double *y; } product;
 
-/* y += one block of a solid times x. */
+/* y += v x with one 3 x 3 block v, row-major. */
 static void add_block (const float *v, const double *x, double *y)
 {
     for (int a = 0; a < 3; a++, v += 3)
         y[a] += (double) v[0] * x[0] + (double) v[1] * x[1] + (double) v[2] * x[2];
 }
 
-/* Rows of blocks of 3 x 3. */
+/* y = A x for the rows first .. last - 1 of a matrix of 3 x 3 blocks. */
 PG_WIDE static void multiply_solid (const pg_block_matrix *A, const double *x, double *y, size_t first,
                                  size_t last)
 {
@@ -192,7 +193,7 @@ PG_WIDE static void multiply_solid (const pg_block_matrix *A, const double *x, d
     }
 }
 
-/* Rows one by one; planes with lengths that the compiler knows. */
+/* y = A x for the rows first .. last - 1, one by one; 2 x 2 blocks are written out. */
 static void multiply_rows (const product *w, size_t first, size_t last)
 {
     const pg_block_matrix *A = w->A;
@@ -218,8 +219,8 @@ static void multiply_rows (const product *w, size_t first, size_t last)
 }
 
 #define INLINE static inline __attribute__ ((always_inline))
-/* Rows of run k, from its row `from` to before its row `end`, eight at a time: each lane is a row, and what
- * lanes beyond the last become is dropped. `block` is a number that the compiler knows. */
+/* y = A x for rows `from` to before `end` of run k, eight at a time: each lane is a row, and the results of
+ * lanes beyond the last row are dropped. `block` is a constant for the compiler. */
 INLINE void multiply_lanes (size_t block, const product *w, size_t k, size_t from, size_t end)
 {
     const pg_block_matrix *A = w->A;
@@ -254,8 +255,8 @@ PG_WIDEST static void multiply_alike (const product *w, size_t k, size_t from, s
     else multiply_lanes (2, w, k, from, end);
 }
 
-/* Rows of a range: runs, or what of them lies there, and rows between them. What a row becomes does not
- * depend on the range. */
+/* y = A x for the rows first .. last - 1: runs of alike rows, as far as they lie in this range, and the rows
+ * between runs. The result of a row does not depend on the range. */
 static void multiply_range (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -272,7 +273,7 @@ static void multiply_range (void *context, size_t first, size_t last, int thread
     multiply_rows (w, first, last);
 }
 
-/* One vector for each unknown of a node. */
+/* Splits x into one vector for each unknown of a node. */
 static void take_apart (void *context, size_t first, size_t last, int thread)
 {
     const product *w = context;
@@ -291,7 +292,7 @@ static void multiply (void *context, const double *x, double *y)
     pg_parallel (w.A->threads, w.A->n, multiply_range, &w);
 }
 
-/* In the plane and in space, of two and three unknowns a node. */
+/* Finds runs of alike rows and copies their numbers as double; only for two and three unknowns per node. */
 pg_status pg_block_settle (pg_block_matrix *A)
 {
     pg_status status = PG_OK;
@@ -331,7 +332,8 @@ pg_operator pg_block_operator (pg_block_matrix *A)
     return (pg_operator) { A->n * (size_t) A->block, A, multiply, diagonal };
 }
 
-/* Zero blocks couple nothing and are left out, so that loose parts are seen to be loose. */
+/* Lists row i, for pg_couplings. Zero blocks couple nothing and are left out, so that parts of the body that
+ * are not connected are recognised. */
 static size_t row_of (void *context, size_t i, int thread, int *node, double *value)
 {
     (void) thread;

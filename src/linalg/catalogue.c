@@ -16,7 +16,7 @@ static const pg_linear_type *const entries[] = {
 #undef PG_LINEAR
 };
 
-/* What a program has added, and the names of all with its own. */
+/* The solver that a program has added (NULL: none), and the names of all solvers, this one first. */
 static const pg_linear_type *added;
 static char all_names[200];
 
@@ -41,7 +41,7 @@ const pg_linear_type *pg_linear_first (int symmetric, int factors)
     return NULL;
 }
 
-/* A diagnosis asks for it after a failed factorisation, on the same thread. */
+/* The unknown at which the last failed factorisation on this thread stopped, for messages; -1: none has. */
 static _Thread_local long failed_row = -1;
 long pg_linear_failed_row (void) { return failed_row; }
 void linear_failed_at (long row) { failed_row = row; }

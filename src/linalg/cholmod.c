@@ -27,7 +27,7 @@ typedef struct {
     supernodal_solver few;
 } chol;
 
-/* CHOLMOD may not print; its status is looked at instead. */
+/* CHOLMOD's handler of errors: prints nothing; callers check the status of CHOLMOD instead. */
 static void quiet (int status, const char *file, int line, const char *message)
 {
     (void) status, (void) file, (void) line, (void) message;
@@ -97,8 +97,8 @@ static double count_flops (chol *c, cholmod_sparse *graph, SuiteSparse_long *nod
     return flops;
 }
 
-/* METIS's order of the nodes. METIS takes SIGTERM for a failure of its own and leaves its work by a jump, for
- * which it puts a handler in place of the caller's: signals from elsewhere wait until it is done. */
+/* Orders the nodes by METIS; 0: it failed. METIS raises SIGTERM for failures of its own and replaces the
+ * handler of this signal meanwhile: signals from outside are held back until it is done. */
 static int metis (chol *c, cholmod_sparse *graph, SuiteSparse_long *node)
 {
     pg_signals before;
@@ -225,8 +225,8 @@ done:
     return status;
 }
 
-/* What has come of a factorization of n unknowns. A pivot that is not positive is reported with its unknown
- * in the numbering of the matrix. */
+/* Checks the outcome of a factorization of n unknowns. A pivot that is not positive is reported with its
+ * unknown in the numbering of the matrix. */
 static pg_status judge (chol *c, size_t n)
 {
     pg_status status = PG_OK;
@@ -254,15 +254,15 @@ static pg_status chol_factor (void *self, const pg_sparse *A)
     return judge (c, A->ncol);
 }
 
-/* The two steps of cholmod_l_factorize one by one, so that A can go between them: a copy in the order of the
- * factor, lower triangle, then the factor of that. */
+/* Takes the two steps of cholmod_l_factorize one by one, so that A can be freed between them: a copy of A in
+ * the order of the factor, lower triangle, then the factor of this copy. */
 static pg_status chol_factor_taking (void *self, const pg_sparse *A, void (*taken) (void *), void *context)
 {
     pg_status status = PG_OK;
     chol *c = self;
     size_t n = A->ncol;
     cholmod_sparse S = view (A), *own = NULL;
-    double none[2] = { 0, 0 };                         /* is added to the diagonal */
+    double none[2] = { 0, 0 };                         /* CHOLMOD adds none[0] to the diagonal */
     if (!c->L->is_super) return chol_factor (self, A);
     own = cholmod_l_ptranspose (&S, 2, c->L->Perm, NULL, 0, &c->common);
     if (!own) PG_FAIL (PG_E_MEMORY, "no memory for a matrix of %zu entries", S.nzmax);
@@ -274,7 +274,7 @@ done:
     return status;
 }
 
-/* All right-hand sides at once. */
+/* Solves for all right-hand sides at once. */
 static pg_status chol_solve (void *self, size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;

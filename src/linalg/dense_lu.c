@@ -43,8 +43,8 @@ void pg_dense_substitute (size_t n, const double *A, size_t lda, const int *pivo
     if (n && nrhs) dgetrs_ ("N", &order, &columns, A, &width, pivot, b, &stride, &info);
 }
 
-/* One column is a product with a vector, which BLAS does at the speed of memory. Without BLAS, whose absence
- * pg_last_error tells, the product is no number, so that nothing can be concluded from it. */
+/* For one column, dgemv is faster than dgemm. Without BLAS, whose absence pg_last_error reports, C becomes
+ * NaN, so that nothing can be concluded from it. */
 void pg_dense_multiply (int transposed, size_t m, size_t n, size_t k, double alpha, const double *A,
                         size_t lda, const double *B, size_t ldb, double beta, double *C, size_t ldc)
 {

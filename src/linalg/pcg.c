@@ -5,14 +5,14 @@
  *     z = P^-1 r,   beta = r.z / (r.z)_before,   p = z + beta p,   alpha = r.z / p.A p,   x += alpha p,
  *     r -= alpha A p.
  *
- * Where b is local and A couples little beyond its neighbours, so are r and p: their entries fall off within
- * a few neighbours to what may stay unbalanced anyway. Such entries of p are then left out
- * (local_direction), and alpha = r.p / p.A p is the best step along what remains: r stays b - A x whatever is
- * left out, and is what the iterations end by.
+ * Where b is zero but for a few unknowns and A couples neighbours only, r and p are small elsewhere too:
+ * within a few neighbours their entries fall below what the tolerance permits. If the caller asks for it
+ * (pg_cg_watch.local), such entries of p are set to zero (local_direction), and alpha = r.p / p.A p is the
+ * best step along what remains: r stays b - A x whatever is left out, and the iterations end by its norm.
  *
  * Every sum over the unknowns is taken in chunks of fixed length, each chunk in four partial sums, and the
  * chunks are added in their order: the result has the same bits for any number of threads and any width of
- * the vector registers. Where ranks share the operator, their sums are added in turn. */
+ * the vector registers. Where ranks share the operator, their sums are added (pg_ranks_sum). */
 #include "perigal/linalg.h"
 #include "perigal/ranks.h"
 #include <float.h>
@@ -24,17 +24,17 @@ enum { CHUNK = 4096 };
 
 /* Vectors of an iteration (n each): residual r, preconditioned residual z, direction p, q = A p, inverse
  * diagonal d, solution x; sums of the chunks (nchunk); step length alpha and turn = beta of the new
- * direction; entries of r that p need not follow are below `least` (0: none); a, b: arguments of a dot
- * product. */
+ * direction; least: entries of r below it are left out of local directions (0: none is); a, b: arguments of a
+ * dot product. */
 typedef struct {
     size_t n, nchunk;
     int threads, shared;
-    pg_status lost;                                    /* ranks lost each other in a sum */
+    pg_status lost;                                    /* error of a sum over ranks, PG_OK: none so far */
     double *r, *z, *p, *q, *d, *x, *sum, alpha, turn, least;
     const double *a, *b;
 } vectors;
 
-/* End of a chunk. */
+/* Returns the unknown behind the last one of a chunk. */
 static size_t chunk_end (const vectors *v, size_t chunk)
 {
     return (chunk + 1) * CHUNK < v->n ? (chunk + 1) * CHUNK : v->n;
@@ -50,7 +50,7 @@ static double total (vectors *v, pg_work work)
     return s;
 }
 
-/* Sums of a . b. */
+/* Sums of a . b over chunks first .. last - 1. */
 static void dot_chunks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -111,7 +111,7 @@ static pg_status precondition (const pg_preconditioner *P, const vectors *v)
     return PG_OK;
 }
 
-/* r = b - A x; a zero first guess, of all ranks that share it, saves the product. */
+/* r = b - A x; saves the product if the first guess is zero (on all ranks that share A). */
 static void first_residual (const pg_operator *A, const double *b, vectors *v)
 {
     size_t n = A->n, zero = 1;
@@ -124,8 +124,8 @@ static void first_residual (const pg_operator *A, const double *b, vectors *v)
     for (size_t i = 0; i < n && !zero; i++) v->r[i] = b[i] - v->q[i];
 }
 
-/* Places for the vectors. Memory that is taken and given back by every solve is cleared by the system each
- * time, which short solves feel. Rows without a positive diagonal get 1. */
+/* Places the vectors in `room`, which callers keep from solve to solve: the system clears fresh memory, which
+ * takes a noticeable share of short solves. d is 1 in rows without a positive diagonal. */
 static pg_status make_vectors (vectors *v, pg_cg_room *room, const pg_operator *A, const pg_preconditioner *P,
                                double *x)
 {
@@ -148,11 +148,11 @@ done:
 }
 
 /* ---- local right-hand sides ---------------------------------------------------------------------------- */
-/* Share of the goal that entries may have, all together, that are left out. */
+/* Largest norm of the entries of r that are left out, over `goal`, the norm of r at which iterations end. */
 static const double left_out = 0.5;
 
-/* The largest `least` of a row of halves, from a tenth of the goal on, for which the entries of r below it
- * have no more than their share. */
+/* Sets `least`: halves it from a tenth of the goal on until the norm of the entries of r below it is at most
+ * left_out * goal. */
 static void find_least (vectors *v, double goal)
 {
     double sum;
@@ -163,8 +163,8 @@ static void find_least (vectors *v, double goal)
     } while (sum > left_out * goal * left_out * goal && v->least > 1e-6 * goal);
 }
 
-/* Leaves entries of p out that are as small as those of d r below `least`, which falls where more of r stays
- * behind than may. Without any entry left nothing is left out any more. */
+/* Sets entries of p below least * d to zero, and halves `least` if the norm of r at these is too large. If no
+ * entry remains, p is z, and nothing is left out any more. */
 static void local_direction (vectors *v, double goal)
 {
     double behind = 0;
@@ -179,7 +179,7 @@ static void local_direction (vectors *v, double goal)
     memcpy (v->p, v->z, v->n * sizeof *v->p);
 }
 
-/* Whoever watches hears of an iteration. */
+/* Reports an iteration to the caller's function `stepped`, if there is one. */
 static pg_status tell (const pg_cg_watch *watch, double alpha, double residual, int *stop)
 {
     return watch && watch->stepped ? watch->stepped (watch->context, alpha, residual, stop) : PG_OK;
@@ -198,8 +198,8 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
     first_residual (A, b, &v);
     double size = sqrt (dot (&v, b, b)), goal = tolerance * size, rz = 0, rr = sqrt (dot (&v, v.r, v.r));
     int stop = 0;
-    /* a residual whose square is hardly a number any more, such as what a load that has returned to zero
-     * leaves behind: it is as good as none, and products with it would vanish */
+    /* A residual whose square nearly underflows, such as rounding leaves of a load that has returned to zero,
+     * counts as zero: dot products with it would vanish. */
     if (rr * rr < DBL_MIN / DBL_EPSILON) goal = fmax (goal, rr);
     if (watch && watch->local && !P && !v.shared && rr > goal) find_least (&v, goal);
     for (k = 0; rr > goal && k < limit && !stop; k++) {
@@ -231,14 +231,14 @@ done:
     return status;
 }
 
-/* Nobody listens. */
+/* Iterates without reports to the caller. */
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations)
 {
     return pg_conjugate_gradients_watched (A, P, b, x, tolerance, limit, iterations, NULL);
 }
 
-/* Without a preconditioner of the caller's there are no threads of the caller's either. */
+/* Runs on one thread, as the number of threads comes with a preconditioner of the caller's. */
 pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance,
                                   size_t limit, size_t *iterations)
 {
@@ -269,7 +269,7 @@ static pg_status pcg_factor (void *self, const pg_sparse *A)
     return PG_OK;
 }
 
-/* From zero for each right-hand side, at most 20 n + 1000 iterations. */
+/* Starts from zero for each right-hand side and takes at most 20 n + 1000 iterations. */
 static pg_status pcg_solve (void *self, size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The preconditioner that ranks make together is given from outside (src/app/mpi). */
+ * A preconditioner that all ranks of a run build and apply together is set by the program (src/app/mpi). */
 #include "perigal/linalg.h"
 
 static const pg_shared_preconditioner *given;

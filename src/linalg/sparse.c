@@ -173,7 +173,7 @@ static void sort_ascending (long *a, long n)
     }
 }
 
-/* T selects unknowns in their order: one entry 1 in each column, rows ascending. */
+/* Does T select unknowns in their order: one entry 1 in each column, rows ascending? */
 static int selects (const pg_sparse *T)
 {
     int yes = (size_t) T->start[T->ncol] == T->ncol;
@@ -190,8 +190,8 @@ static int ascends (const pg_sparse *A)
     return 1;
 }
 
-/* B by such a selection: entries of A in rows and columns that stay. `kept`: new number of each row and 1, or
- * 0. */
+/* B = T' A T where T selects unknowns: the entries of A in rows and columns that are kept. kept: new number
+ * of each row plus 1; 0: it is dropped. */
 static pg_status select_entries (pg_sparse *B, const pg_sparse *A, const pg_sparse *T)
 {
     pg_status status = PG_OK;
@@ -213,7 +213,7 @@ done:
     return status;
 }
 
-/* Gives back what growing has taken too much. */
+/* Shrinks the arrays of B to nnz entries. */
 static pg_status fit (pg_sparse *B, size_t nnz)
 {
     pg_status status = PG_OK;

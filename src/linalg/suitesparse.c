@@ -10,7 +10,7 @@ struct pg_blas_calls pg_blas;
 struct pg_cholmod_calls pg_cholmod;
 struct pg_umfpack_calls pg_umfpack;
 
-/* Shared: CHOLMOD and UMFPACK are to use this BLAS, not another one that the system may hold for them. */
+/* Loads BLAS so that CHOLMOD and UMFPACK use this one too (RTLD_GLOBAL), not another one of the system. */
 pg_status pg_blas_load (void)
 {
     static const pg_library_function function[] = {
@@ -36,7 +36,7 @@ pg_status pg_cholmod_load (void)
     PG_TRY (pg_blas_load ());
     PG_TRY (pg_library_load (&cholmod));
 #if SUITESPARSE_MAIN_VERSION < 7
-    /* Factors are the largest arrays of a run: in large pages, unless somebody has chosen other functions. */
+    /* Factors, the largest arrays of a run, get large pages, unless other functions have been set. */
     struct SuiteSparse_config_struct *memory = pg_cholmod.SuiteSparse_config;
     if (memory->malloc_func == malloc) memory->malloc_func = pg_memory_malloc;
     if (memory->calloc_func == calloc) memory->calloc_func = pg_memory_calloc;

@@ -8,7 +8,7 @@
 #include <cholmod.h>
 #include <umfpack.h>
 
-/* As Fortran calls them: matrices by columns, everything by pointers. */
+/* BLAS and LAPACK as Fortran calls them: matrices stored by columns, all arguments by pointers. */
 void dgesv_ (const int *n, const int *nrhs, double *a, const int *lda, int *pivot, double *b, const int *ldb,
              int *info);
 void dgetrf_ (const int *m, const int *n, double *a, const int *lda, int *pivot, int *info);
@@ -32,11 +32,11 @@ void dtrsm_ (const char *side, const char *uplo, const char *trans, const char *
              const int *n, const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
 void dtrmm_ (const char *side, const char *uplo, const char *trans, const char *diag, const int *m,
              const int *n, const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
-/* OpenBLAS's own. */
+/* Extensions of OpenBLAS: the number of threads that it uses. */
 void openblas_set_num_threads (int threads);
 int  openblas_get_num_threads (void);
 
-/* BLAS and LAPACK, of OpenBLAS: every function, as X (name), and the table of pointers. */
+/* BLAS and LAPACK, from OpenBLAS: every function, as X (name), and the table of pointers. */
 #define PG_BLAS_CALLS(X) \
     X (dgesv_) X (dgetrf_) X (dgetrs_) X (dgemm_) X (dgemv_) X (dsyrk_) X (dpotrf_) \
     X (dpotrs_) X (dtrsm_) X (dtrmm_) X (dsymm_) X (openblas_set_num_threads) \
@@ -47,7 +47,8 @@ struct pg_blas_calls {
 #undef X
 };
 extern struct pg_blas_calls pg_blas;
-/* Must have succeeded before any of the functions is called. PG_E_FILE: the library is not installed. */
+/* Loads BLAS and LAPACK; must have succeeded before any of their functions is called. PG_E_FILE: the library
+ * is not installed. */
 pg_status pg_blas_load (void);
 
 #define dgesv_(...)                   pg_blas.dgesv_ (__VA_ARGS__)
@@ -70,7 +71,7 @@ pg_status pg_blas_load (void);
 #else
 #define PG_SUITESPARSE_MEMORY(X)
 #endif
-/* CHOLMOD. */
+/* CHOLMOD: every function, as X (name), and the table of pointers. */
 #define PG_CHOLMOD_CALLS(X) \
     X (cholmod_l_amd) X (cholmod_l_analyze_p) X (cholmod_l_factorize) X (cholmod_l_finish) \
     X (cholmod_l_free_dense) X (cholmod_l_free_factor) X (cholmod_l_free_sparse) X (cholmod_l_metis) \
@@ -82,7 +83,7 @@ struct pg_cholmod_calls {
 #undef X
 };
 extern struct pg_cholmod_calls pg_cholmod;
-/* BLAS is loaded before it. PG_E_FILE as above. */
+/* Loads CHOLMOD, and BLAS before it. PG_E_FILE: the library is not installed. */
 pg_status pg_cholmod_load (void);
 
 #define cholmod_l_amd(...)           pg_cholmod.cholmod_l_amd (__VA_ARGS__)
@@ -101,7 +102,7 @@ pg_status pg_cholmod_load (void);
 #define cholmod_l_rcond(...)         pg_cholmod.cholmod_l_rcond (__VA_ARGS__)
 #define cholmod_l_solve(...)         pg_cholmod.cholmod_l_solve (__VA_ARGS__)
 
-/* UMFPACK. */
+/* UMFPACK: every function, as X (name), and the table of pointers. */
 #define PG_UMFPACK_CALLS(X) \
     X (umfpack_dl_defaults) X (umfpack_dl_free_numeric) X (umfpack_dl_free_symbolic) \
     X (umfpack_dl_numeric) X (umfpack_dl_solve) X (umfpack_dl_symbolic)
@@ -111,7 +112,7 @@ struct pg_umfpack_calls {
 #undef X
 };
 extern struct pg_umfpack_calls pg_umfpack;
-/* BLAS is loaded before it. PG_E_FILE as above. */
+/* Loads UMFPACK, and BLAS before it. PG_E_FILE: the library is not installed. */
 pg_status pg_umfpack_load (void);
 
 #define umfpack_dl_defaults(...)      pg_umfpack.umfpack_dl_defaults (__VA_ARGS__)

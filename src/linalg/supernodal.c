@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * x = P' L'^-1 L^-1 P b by the supernodal factor P A P' = L L' of CHOLMOD, for right-hand sides that are
- * zero but for a few places. Columns of L with the same rows below are a supernode, a dense block: L11 (a
+ * zero but for a few entries. Columns of L with the same rows below are a supernode, a dense block: L11 (a
  * triangle) over L21. Forward,
  *
  *     y_1 = L11^-1 y_1,    y_2 = y_2 - L21 y_1,
  *
- * a supernode has something to do only if y_1 is not zero: those on the way from the supernodes of the given
- * places to the root, where the parent of a supernode is that of the first row of L21 (the theorem on paths
- * of the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a large body in the plane
- * they are a small part of the factor. There the half solve ends: b_i . A^-1 b_j = y_i . y_j.
- * Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the solution is nowhere zero. Right-hand
- * sides lie side by side (Y [place][right-hand side]), so that rows that are not neighbours are gathered and
- * scattered in pieces that are. */
+ * a supernode has something to do only if y_1 is not zero: those on the paths from the supernodes of the
+ * entries that are not zero to the root, where the parent of a supernode is that of the first row of L21 (the
+ * theorem on paths of the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a large
+ * 2D body they are a small part of the factor. There the half solve ends: b_i . A^-1 b_j = y_i . y_j.
+ * Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all supernodes, as the solution is nowhere zero. Right-hand
+ * sides lie side by side (Y [position][right-hand side]), so that scattered rows are gathered and scattered
+ * in contiguous pieces. */
 #include "supernodal.h"
 #include <string.h>
 
@@ -33,7 +33,7 @@ static supernode take (const cholmod_factor *L, size_t k)
                          x + px[k] };
 }
 
-/* Once for a factor: its pattern stays. */
+/* Finds positions, supernodes and parents, once for a factor: its pattern does not change. */
 static pg_status prepare (const cholmod_factor *L, supernodal_solver *s)
 {
     pg_status status = PG_OK;
@@ -56,8 +56,7 @@ done:
     return status;
 }
 
-/* Y = P b, and the supernodes that it reaches; the others are not looked at on the way forward, and Y is not
- * set there unless all of it is asked for. */
+/* Y = P b; marks the supernodes that the forward solve reaches. At the others Y is not set unless `all`. */
 static void permute (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b, int all)
 {
     memset (s->reached, 0, L->nsuper);
@@ -107,7 +106,7 @@ static void backward (const supernode *n, int nrhs, double *Y, double *E)
     dtrsm_ ("R", "L", "N", "N", &nrhs, &n->m, &one, n->block, &n->rows, own, &nrhs);
 }
 
-/* Room for the right-hand sides, and the way forward. */
+/* Allocates Y and E and solves forward, Y = L^-1 P b. */
 static pg_status go_forward (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
                              int all)
 {

@@ -105,7 +105,7 @@ done:
     return status;
 }
 
-/* With UMFPACK's iterative refinement, which it does by default. */
+/* Solves with UMFPACK's iterative refinement, which it does by default. */
 static pg_status lu_solve (void *self, size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: four numbers at a time, for products with blocks of three unknowns a node. A block row and the
- * three numbers of a node are loaded as four, and what the fourth lane adds up to is ignored. So the place
- * behind the last number is read: the last block of a row is left to scalars, as only that may be the last of
- * all. The operations and their order are the same with and without AVX. */
+ * three numbers of a node are loaded as four, and the sum in the fourth lane is ignored. This reads one
+ * number too many, which at the end of an array would not be there: the last block of a row, which may be the
+ * last of all, is left to scalars. The operations and their order are the same with and without AVX. */
 #ifndef PG_LINALG_WIDE_H
 #define PG_LINALG_WIDE_H
 typedef double four __attribute__ ((vector_size (32), aligned (8)));

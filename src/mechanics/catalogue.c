@@ -25,7 +25,7 @@ enum { COUNT = sizeof entries / sizeof *entries };
 
 const pg_method *const *pg_force_methods (void) { return methods; }
 
-/* By its name in the scene; NULL: there is none. */
+/* Finds a force by its name in the scene; NULL: there is none. */
 const pg_force_type *pg_force_find (const char *name)
 {
     for (size_t i = 0; name && i < COUNT; i++)
@@ -54,7 +54,7 @@ const pg_sparse *pg_force_matrix (const pg_force_type *force, void *self)
     return force->matrix && force->matrix (self, PG_MATRIX_AT_HAND, &K) == PG_OK ? K : NULL;
 }
 
-/* For choices of keys and messages: "galerkin|bond|...". */
+/* Names of all forces, for choices of keys and messages: "galerkin|bond|...". */
 const char *pg_force_names (void)
 {
     static const char names[] = ""
@@ -91,7 +91,7 @@ pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threa
     return pg_problem_prepare_with (out, scene, methods, threads);
 }
 
-/* Both halves at once, for programs that check nothing in between. */
+/* Prepares and completes a problem in one call, for programs that check nothing in between. */
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
 {
     pg_status status = PG_OK;

@@ -6,10 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-/* A box that is still to be cut: its ranks are first .. first + ranks - 1. */
+/* A box that is still to be cut, across `axis`, for the ranks first .. first + ranks - 1; `at`: index of its
+ * first plane in the counts of cells. */
 typedef struct { pg_box box; int first, ranks, axis; size_t at; } piece;
 
-/* The axis along which the box is longest; one with a single plane cannot be cut. */
+/* Length of the box along axis k; 0 if it has a single plane of cells there and cannot be cut. */
 static double length (const pg_box *b, const double *steps, int k)
 {
     int n = b->high[k] - b->low[k];
@@ -23,7 +24,8 @@ static int longest (const pg_box *b, const double *steps)
     return axis;
 }
 
-/* Cells of every plane of the pieces to be cut, one list: each rank counts every so many planes. */
+/* Counts the cells inside the body in every plane of the pieces to be cut, all pieces in one array: the
+ * planes are dealt out to the ranks in turn, and the counts summed over the ranks. */
 static pg_status count_planes (double **planes, piece *list, size_t n, const double *steps,
                                pg_plane_count count, const void *context)
 {
@@ -45,7 +47,7 @@ done:
     return status;
 }
 
-/* The plane at which the piece is cut: its lower part, with half of the ranks, gets their share of the
+/* Returns the plane at which the piece is cut: its lower part, for half of the ranks, gets their share of the
  * cells, at least one plane and not all. */
 static int cut_at (const piece *p, const double *planes)
 {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Parts of a body that ranks share: each has joined the points that it holds, as far as it sees; what hangs
- * together across their boundaries is found by passing on the least number of each part, until it stays. */
+ * Connected parts of a body that is divided among ranks. Each rank has joined its own points (union-find);
+ * what is connected across ranks is found by exchanging the least point number of each part until none
+ * changes. */
 #include "perigal/ranks.h"
 #include <string.h>
 
-/* The least label of each part that this rank sees goes to all points of it. */
+/* Gives all points of each part, as far as this rank knows it, the least label among them. */
 static void level_out (size_t n, int *parent, double *label)
 {
     for (size_t i = 0; i < n; i++) {
@@ -14,7 +15,7 @@ static void level_out (size_t n, int *parent, double *label)
     for (size_t i = 0; i < n; i++) label[i] = label[pg_disjoint_root (parent, (int) i)];
 }
 
-/* How many members of the owned points have another label than before. */
+/* Counts the labels of owned points that differ from `before`, and copies all labels there. */
 static double changed (const pg_subdomain *s, size_t components, const double *label, double *before)
 {
     double n = 0;

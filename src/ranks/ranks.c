@@ -3,12 +3,13 @@
 #include "perigal/ranks.h"
 #include <string.h>
 
-/* A process is a rank or it is not: nothing else in the library is global. */
+/* The ranks to which this process belongs, and the same while they divide a body among them; NULL: none. They
+ * are global, as they are a property of the process. */
 static const pg_ranks *joined, *sharing;
 /* Wall time spent in messages, waiting included, s. */
 static double spent;
 
-/* Time since t0 was that of a message; the status is passed on. */
+/* Counts the time since t0 as spent in messages; returns the status unchanged. */
 static pg_status took (double t0, pg_status status)
 {
     spent += pg_seconds () - t0;
@@ -40,7 +41,7 @@ pg_status pg_ranks_ask (size_t n, double *value)
     return joined && n ? took (t0, joined->most (joined->context, n, value)) : PG_OK;
 }
 
-/* ---- one process for all ------------------------------------------------------------------------------- */
+/* ---- a single process ---------------------------------------------------------------------------------- */
 static pg_status leave (void *context, size_t n, double *value)
 {
     (void) context, (void) n, (void) value;
@@ -96,8 +97,8 @@ pg_status pg_ranks_share (size_t n, const double *mine, size_t *n_all, double **
     return took (t0, sharing->share (sharing->context, n, mine, n_all, all));
 }
 
-/* The message travels as bytes: those of the lowest rank that failed, by a sum to which the others add
- * nothing. */
+/* All ranks get the error message of the lowest rank that failed: its bytes are sent by a sum over the ranks
+ * to which the other ranks add zeros. */
 enum { WORDS = 512 };
 pg_status pg_ranks_agree (pg_status mine)
 {

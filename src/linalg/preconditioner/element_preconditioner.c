@@ -27,7 +27,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Terms at most; fewest rows of a run: eight numbers have to fit in. */
+/* Most terms of the polynomial; fewest rows of a run of alike rows: eight numbers have to fit in. */
 enum { MOST_TERMS = 32, LEAST = 8 };
 
 struct pg_element_preconditioner {
@@ -37,8 +37,9 @@ struct pg_element_preconditioner {
     /* N', by rows. */
     pg_node_matrix transposed;
     pg_multilevel *multilevel;
-    const pg_subdomain *subdomain;                     /* of ranks that share the body */
-    /* V of ranks whose nodes are no lattice: what they make of the rows of Q together. */
+    const pg_subdomain *subdomain;                     /* nodes that this rank owns; NULL: one process */
+    /* V where ranks share nodes that form no lattice: a preconditioner that they build of Q together, `by`.
+     * */
     void   *shared;
     const pg_shared_preconditioner *by;
     pg_operator    Q;
@@ -52,19 +53,19 @@ struct pg_element_preconditioner {
     double *force, *along, *part;
     /* residual without the forces along W (ndof) */
     double *rest;
-    /* Vectors of the recurrence and of the two halves (ndof; of elements on a coarse grid, of its
-     * functions). */
+    /* Vectors of the recurrence (unknowns of the nodes), and the vectors before and after V (unknowns of
+     * Q). */
     double *t[2], *left, *right;
 };
 
-/* ---- N ------------------------------------------------------------------------------------------------- */
+/* ---- the matrix N -------------------------------------------------------------------------------------- */
 void pg_node_matrix_clear (pg_node_matrix *A)
 {
     pg_free (A->start), pg_free (A->node), pg_free (A->value);
     memset (A, 0, sizeof *A);
 }
 
-/* Rows in ascending order make ascending columns. */
+/* B = A'; the rows of A are taken in ascending order, so that the nodes of each row of B ascend. */
 static pg_status transpose (pg_node_matrix *B, const pg_node_matrix *A)
 {
     pg_status status = PG_OK;
@@ -100,8 +101,8 @@ static void interpolate (pg_element_preconditioner *P, double low, double high,
     }
 }
 
-/* One step of the recurrence: last = T_k-1 r becomes T_k+1 r, now = T_k r, sum += c last. factor: 1 in the
- * first step, where there is no T_-1, else 2. */
+/* One step of the recurrence: last = T_k-1 r becomes T_k+1 r, now = T_k r, sum += c last. scale: 1 / half in
+ * the first step, where there is no T_-1 (keep 0), else 2 / half (keep 1). */
 typedef struct {
     const pg_node_matrix *A;
     const pg_row_runs *runs;
@@ -122,7 +123,7 @@ static inline __attribute__ ((always_inline)) void row_times (const pg_node_matr
         odd += (double) A->value[e + 1] * *(const four *) (x + 3 * (size_t) A->node[e + 1]);
     }
     for (size_t k = 0; k < 3; k++) s[k] = even[k] + odd[k];
-    for (; e < end; e++)                               /* where four numbers might be one too many */
+    for (; e < end; e++)                               /* four numbers might reach beyond the end of x */
         for (size_t k = 0; k < 3; k++) s[k] += (double) A->value[e] * x[3 * (size_t) A->node[e] + k];
 }
 
@@ -134,7 +135,7 @@ static inline __attribute__ ((always_inline)) void recur_at (const step *w, size
     w->sum[i] += w->c * next;
 }
 
-/* Rows one by one. */
+/* One step of the recurrence at the rows first .. last - 1, one by one. */
 PG_WIDE static void recur_rows (const step *w, size_t first, size_t last)
 {
     const pg_node_matrix *A = w->A;
@@ -160,8 +161,9 @@ static inline __attribute__ ((always_inline)) void recur_eight (const step *w, s
     *sum += w->c * next;
 }
 
-/* `count` rows like row `model`, from row `first` on; 32 numbers at a time, so that sums need not wait for
- * one another. The last eight may overlap those before: what has been done is not done again. */
+/* One step of the recurrence at `count` rows like row `model`, from row `first` on: 32 numbers at a time,
+ * so that sums need not wait for one another. The last eight may overlap numbers that are done: these are
+ * left. */
 PG_WIDEST static void recur_alike (const step *w, size_t model, size_t first, size_t count)
 {
     const pg_node_matrix *A = w->A;
@@ -185,7 +187,8 @@ PG_WIDEST static void recur_alike (const step *w, size_t model, size_t first, si
     }
 }
 
-/* A few rows of a run, whose rest another thread has: number by number, in the same order. */
+/* One step of the recurrence at `count` rows like row `model`, too few for recur_alike, as other threads have
+ * the rest of the run: number by number, in the same order. */
 static void recur_few (const step *w, size_t model, size_t first, size_t count)
 {
     const pg_node_matrix *A = w->A;
@@ -198,8 +201,8 @@ static void recur_few (const step *w, size_t model, size_t first, size_t count)
     }
 }
 
-/* The rows first .. last - 1: runs, or what of them lies there, and rows between them. What a row becomes
- * does not depend on the range. */
+/* One step of the recurrence at the rows first .. last - 1: runs of alike rows, as far as they lie in this
+ * range, and the rows between them. The result of a row does not depend on the range. */
 static void recur (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -216,7 +219,7 @@ static void recur (void *context, size_t first, size_t last, int thread)
     recur_rows (w, first, last);
 }
 
-/* y = p (A) r; of ranks at owned nodes, as products need what ghosts have. */
+/* y = p (A) r, where ranks share the body at owned nodes only: each product needs the ghosts' values anew. */
 static pg_status polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A,
                              const pg_row_runs *alike, const double *r, double *y)
 {
@@ -266,8 +269,9 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     *preconditioner = NULL;
 }
 
-/* 1 / x, bounded, and less for patterns that the shape functions damp: of those K has up to 3 to 5 times the
- * energy of N' Q N, as plane waves on the lattice tell; 1 + 2 (1 - x)^2 is about the mean of it. */
+/* About 1 / x, bounded by 1 / parameter, and less for patterns that the shape functions damp (x < 1): their
+ * energy by K is up to 3 to 5 times that by N' Q N, as plane waves on the lattice show; 1 + 2 (1 - x)^2 is
+ * about the mean of this ratio. */
 static double inverse (double x, double parameter)
 {
     return 1 / sqrt (x * x * (1 + 2 * (1 - x) * (1 - x)) + parameter * parameter);
@@ -284,7 +288,8 @@ done:
     return status;
 }
 
-/* W'W by Cholesky: the congruence of the unit matrix. Ranks have the springs of all from here on. */
+/* Factors W'W, the congruence of the unit matrix, by Cholesky. Each rank has the springs of all ranks from
+ * here on. */
 static pg_status factor_springs (pg_element_preconditioner *P, size_t ndof, int threads)
 {
     pg_status status = PG_OK;
@@ -310,12 +315,11 @@ done:
     return status;
 }
 
-/* Fragments that nothing holds leave Q singular: a share of its diagonal makes up for it, as on coarse
- * grids. */
+/* Fragments without supports make Q singular: this share of its diagonal is added, as on coarse grids. */
 static const double lift = 1e-10;
 
-/* V of ranks whose nodes are no lattice, so that they do not know the coarse functions of each other. Q is
- * not needed any more when it is made. */
+/* Makes V where ranks share nodes that form no lattice, so that they have no coarse functions in common: by a
+ * preconditioner that is given from outside. Q is emptied, as it is not needed any more. */
 static pg_status make_shared (pg_element_preconditioner *P, const pg_element_setting *s)
 {
     pg_status status = PG_OK;
@@ -337,8 +341,8 @@ done:
     return status;
 }
 
-/* V: a multilevel cycle of the elements. Of elements on a coarse grid no unknown is fixed: their functions
- * leave out what is. */
+/* Makes V, a multilevel cycle for Q. With elements on a coarse grid no unknown of Q is fixed: solve_coarse
+ * leaves out the fixed unknowns of the nodes. */
 static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_setting *s)
 {
     pg_status status = PG_OK;
@@ -368,7 +372,7 @@ static pg_status find_runs (pg_row_runs *out, const pg_node_matrix *A)
     return rows_alike (out, LEAST, A->n, A->start, A->node, A->value, 1);
 }
 
-/* The polynomial and what it works on. */
+/* Makes the polynomial, N', the runs of alike rows of N and N', and the vectors of the recurrence. */
 static pg_status make_polynomial (pg_element_preconditioner *P, size_t ndof)
 {
     pg_status status = PG_OK;
@@ -422,7 +426,7 @@ static pg_status cycle (pg_element_preconditioner *P, const double *r, double *z
     return V.solve (V.context, r, z);
 }
 
-/* z = D^-1 r + H V (Q) H' r; nothing at unknowns that are fixed. */
+/* z = D^-1 r + H V (Q) H' r; z = 0 at unknowns that are fixed. */
 static pg_status solve_coarse (pg_element_preconditioner *P, const double *r, double *z)
 {
     pg_status status = PG_OK;
@@ -438,7 +442,7 @@ done:
     return status;
 }
 
-/* z = p (N) V (Q) p (N') r, or on a coarse grid. */
+/* z = p (N) V (Q) p (N') r; without N z = V (Q) r; with elements on a coarse grid: solve_coarse. */
 static pg_status solve_elements (pg_element_preconditioner *P, const double *r, double *z)
 {
     pg_status status = PG_OK;
@@ -471,7 +475,8 @@ static void take_off (pg_element_preconditioner *P, const double *x, const doubl
         for (long q = W->start[j]; q < W->start[j + 1]; q++) to[W->row[q]] -= W->value[q] * c[j];
 }
 
-/* With stiff springs: what they take, by themselves; the rest by the elements. */
+/* z = P^-1 r. With stiff springs (columns of W) the part of r along W is divided by their stiffnesses, and
+ * the rest goes to the elements. */
 static pg_status solve (void *context, const double *r, double *z)
 {
     pg_status status = PG_OK;

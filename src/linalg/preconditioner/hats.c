@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Coarse functions over the nodes of any cloud: multilinear functions on a grid, split where cracks run
- * through (multilevel_space.c), for coarse spaces whose matrix the caller sums up. */
+ * through (multilevel_space.c), for coarse spaces whose matrix the caller assembles. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
@@ -13,7 +13,7 @@ void pg_hats_clear (pg_hats *h)
     memset (h, 0, sizeof *h);
 }
 
-/* Where the functions stand. */
+/* Computes the positions of the functions: the vertices of the grid at which they are 1. */
 static pg_status find_places (pg_hats *h, const level *l)
 {
     pg_status status = PG_OK;
@@ -29,7 +29,8 @@ done:
     return status;
 }
 
-/* The grid and its functions are those of a level whose couplings are only asked for their nodes. */
+/* Builds grid and functions as for a level of the multilevel preconditioner; of couplings only nodes are
+ * read. */
 pg_status pg_hats_create (pg_hats *out, const pg_hats_setting *s)
 {
     pg_status status = PG_OK;
@@ -58,7 +59,7 @@ done:
 /* ---- transfers ----------------------------------------------------------------------------------------- */
 typedef struct { const pg_hats *h; size_t block; const double *x; double *y; } transfer;
 
-/* Each function collects from its nodes, in their order. */
+/* y = H' x: each function sums over its nodes, in their order. */
 static void collect (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -78,7 +79,7 @@ void pg_hats_restrict (const pg_hats *h, int block, const double *x, double *y)
     pg_parallel (h->threads, h->count, collect, &t);
 }
 
-/* Each node adds the functions at the corners of its cell. */
+/* y += H x: each node adds the functions at the corners of its cell. */
 static void spread (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;

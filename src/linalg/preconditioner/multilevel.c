@@ -85,7 +85,7 @@ done:
     return status;
 }
 
-/* Factors it, with a lift of 1e-10, raised to 1e-4 at most while the factorisation fails. */
+/* Factors the coarsest matrix, with a lift of 1e-10, raised to 1e-4 at most while the factorisation fails. */
 static pg_status factor_coarsest (pg_multilevel *m, level *l)
 {
     pg_status status = PG_OK;
@@ -109,7 +109,7 @@ done:
 }
 
 /* ---- levels -------------------------------------------------------------------------------------------- */
-/* Vectors of the cycle. */
+/* Allocates the vectors of the cycle. */
 static pg_status make_vectors (level *l, int finest)
 {
     pg_status status = PG_OK;
@@ -123,7 +123,7 @@ done:
     return status;
 }
 
-/* Ranks part with the finest level. */
+/* Makes all that is below the finest level l where ranks share it (multilevel_meet). */
 static pg_status meet (pg_multilevel *m, const level *l)
 {
     pg_status status = PG_OK;
@@ -134,7 +134,7 @@ done:
     return status;
 }
 
-/* Levels from the finest down; each needs the bound of its spectrum before it is smoothed. */
+/* Makes the levels from the finest down. The smoother of a level needs a bound of its spectrum. */
 static pg_status make_levels (pg_multilevel *m, double step)
 {
     pg_status status = PG_OK;
@@ -185,7 +185,7 @@ done:
     return status;
 }
 
-/* One V-cycle from zero. */
+/* z = M r: one V-cycle that starts from zero. */
 static pg_status solve (void *context, const double *r, double *z)
 {
     pg_multilevel *m = context;

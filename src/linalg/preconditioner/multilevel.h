@@ -4,8 +4,8 @@
  *
  * Files: multilevel.c (creation, coarsest level), multilevel_space.c (coarse functions of a level),
  * multilevel_matrix.c (their matrix), multilevel_cycle.c (smoothing, transfers, the cycle),
- * multilevel_ranks.c (a finest level that ranks share), multilevel_whole.c (coarse levels that each of
- * them has in full).
+ * multilevel_ranks.c (a finest level that ranks share), multilevel_whole.c (coarse levels that each rank
+ * has in full).
  *
  * Unknown k of node i has the number i * block + k. A masked unknown (prescribed, or without stiffness)
  * takes no part: its inverse diagonal is stored as 0. Each vertex of a grid has a hat function,
@@ -19,10 +19,10 @@
 /* Levels at most; unknowns per node at most. */
 enum { MOST_LEVELS = 12, MOST_BLOCK = 6 };
 
-/* What a finest level of ranks has beside: the sites that each rank owns (size), sites of the whole lattice,
- * and for each node the neighbour in the halo that owns it (n), or one of these. While functions are found:
- * entries of `function` that belong together (pg_disjoint), and the number of the function at each, which all
- * ranks know it by (n x corners). */
+/* Data of a finest level that ranks share. box: lattice sites that each rank owns (size); sites: of the whole
+ * lattice along each axis; from: index in the halo of the neighbour that owns each node, or MINE, or NOBODYS
+ * (n). While functions are found: joined: disjoint sets of entries of `function` (pg_disjoint); label: number
+ * of the function at each entry, the same on all ranks (n x corners). */
 enum { MINE = -1, NOBODYS = -2 };
 typedef struct {
     pg_box *box;
@@ -32,13 +32,12 @@ typedef struct {
     double *label;
 } level_ranks;
 
-/* One level: its matrix, and the functions that make the next level. */
 /* Grid of the coarse functions of a level. */
 typedef struct {
-    /* Its first vertex and its steps, m. */
+    /* Position of its first vertex and its steps, m. */
     double  low[3], step[3];
-    /* cells: cells along each axis. share_of: lattice steps in a cell where the nodes form a lattice, they
-     * are in the middle of their steps then, unless aligned; 0: no lattice. */
+    /* cells: cells along each axis. share_of: lattice steps per cell along each axis where the nodes form a
+     * lattice, each node in the middle of a step unless aligned; 0: no lattice. */
     int     cells[3], share_of[3];
     int     aligned;                                   /* as in pg_multilevel_setting, on all levels */
     /* Numbers of cells, of hat functions, of functions. */
@@ -52,13 +51,15 @@ typedef struct {
     size_t *cell_start;  int *cell_node;
     /* First function of each hat function (nvertex + 1). */
     size_t *first;
-    /* Function at each corner of a node's cell, as this node sees it; -1: none (n x corners). */
+    /* Function at each corner of a node's cell, of its parts the one with this node; -1: none (n x
+     * corners). */
     int    *function;
-    /* Its value at the node (n x corners). */
+    /* Value of this function at the node (n x corners). */
     float  *weight;
     /* Nodes of function f and its values there: entries at[f] .. at[f + 1] - 1 (at: nfunction + 1). */
     size_t *at;  int *member;  float *share;
 } level_functions;
+/* One level: its matrix, and the functions that make the next level. */
 typedef struct {
     /* Dimension, unknowns per node, threads, corners of a coarse cell (2^dim). */
     int     dim, block, threads, corners;
@@ -88,8 +89,8 @@ typedef struct {
     /* Vectors of the cycle (ndof): right-hand side and solution (on the finest level the caller's),
      * residual, step, A times step. */
     double *b, *z, *r, *d, *q;
-    /* Of ranks: which nodes are owned here, and the halo; NULL: the process is alone. made: that of a coarse
-     * level, which is the level's own. origin: site 0 of the whole lattice, m. */
+    /* Where ranks share the level: nodes that this rank owns, and the halo (NULL: a single process). made:
+     * the same of a coarse level, which owns it. origin: position of site 0 of the whole lattice, m. */
     const pg_subdomain *part;
     pg_subdomain *made;
     level_ranks  *ranks;
@@ -105,11 +106,11 @@ struct pg_multilevel {
     void   *factor;
     const pg_linear_type *direct;
     size_t  applications;
-    /* Of ranks: `meet` has the functions of the finest level that this rank holds, and of their matrix and
-     * right-hand side what the nodes that it owns add. The sums over all ranks are level 1 of each of them
-     * (whole: what each function is there), or what they make of them together (shared), which then takes
-     * the place of all coarse levels; back (slots for owned functions that others hold), total: room for the
-     * sums. Unknowns of the finest level, of all ranks. */
+    /* Where ranks share the finest level: `meet` has the coarse functions that this rank holds, and what the
+     * nodes that it owns contribute to their matrix and right-hand side. The sums over all ranks are level 1
+     * on every rank (whole: index of each function there), or go to a preconditioner that the ranks build
+     * together (shared, made by `below`) and that replaces all coarse levels; slot, total: workspace of the
+     * sums. unknowns: of the finest level, of all ranks. */
     level   meet;
     int    *whole, *slot;
     double *total;
@@ -121,12 +122,13 @@ struct pg_multilevel {
 /* ---- multilevel_space.c -------------------------------------------------------------------------------- */
 /* Chooses grid and functions of the next level; step: wanted size of its cells, m. */
 pg_status level_space (level *l, double step);
-/* The hat function at a corner of a cell (bit k of corner: high along axis k); the position of a hat
- * function on the grid. */
+/* Returns the hat function at a corner of a cell (bit k of corner: high along axis k). level_vertex_place:
+ * indices of a hat function's vertex on the grid (3). */
 size_t level_vertex (const level *l, size_t cell, int corner);
 void   level_vertex_place (const level *l, size_t vertex, int *at);
 /* ---- multilevel_matrix.c ------------------------------------------------------------------------------- */
-/* Nodes that node i is coupled with (returns how many) and the blocks, row by row; value NULL: nodes only. */
+/* Lists the nodes that node i is coupled with, and their blocks, row-major (value NULL: nodes only). Returns
+ * how many. */
 size_t level_row (const level *l, size_t i, int thread, int *node, double *value);
 /* Builds the matrix of the next level, P' A P. */
 pg_status level_coarsen (level *coarse, const level *fine);
@@ -135,32 +137,34 @@ pg_status level_diagonal (level *l, const unsigned char *fixed);
 /* ---- multilevel_cycle.c -------------------------------------------------------------------------------- */
 /* y = A x on this level. */
 void      level_multiply (const level *l, const double *x, double *y);
-/* Sets top. */
+/* Sets l->top, the upper bound of the eigenvalues of D^-1 A. */
 pg_status level_bound (level *l);
-/* z = M b from level k down. */
+/* z = M b: a V-cycle over the levels from k down. */
 pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z);
-/* ---- multilevel_ranks.c: alone these do nothing -------------------------------------------------------- */
-/* Before functions are made of the finest level: all ranks take the largest step, m, the same unknowns that
- * take no part, and the same origin. */
+/* ---- multilevel_ranks.c: in a single process these do nothing ------------------------------------------ */
+/* Called before the functions of the finest level are made: all ranks agree on the step (the largest, m), on
+ * masked unknowns and on the origin. */
 pg_status level_join (level *l, double *step);
 void      level_ranks_free (level_ranks **ranks);
-/* Moves the first vertex of the grid along an axis down to one of all ranks. */
+/* Moves the first vertex of the grid down along an axis to a vertex of the grid that all ranks have in
+ * common. */
 void      level_align (level *l, int axis);
-/* Parts of hat functions over all ranks, from what is joined here: part of each hat function that nodes are
- * in; parts: how many each has of which nodes are held here. */
+/* Finds the parts of hat functions over all ranks from the sets `joined` of each: sets `function` to the part
+ * that each node is in; parts: number of parts of each hat function with nodes held here. */
 pg_status level_agree_parts (level *l, size_t *parts);
-/* Ghosts of x (ndof) take the values of their owners. */
+/* Copies the values of x (ndof) at ghosts from their owners. */
 pg_status level_exchange (const level *l, double *x);
-/* Sum over all ranks; not finite where they lose each other. */
+/* Returns the sum of `mine` over all ranks; NaN if the exchange fails. */
 double    level_sum (const level *l, double mine);
-/* Level 1 on each rank, or what they make together, of the functions of l. */
+/* Makes level 1 on every rank, or the preconditioner that the ranks build together, from m->meet; l:
+ * finest. */
 pg_status multilevel_meet (pg_multilevel *m, const level *l);
-/* meet.z by that from what each rank has added to meet.b. */
+/* Sums meet.b over the ranks and solves by level 1, or by the common preconditioner, for meet.z. */
 pg_status multilevel_solve_together (pg_multilevel *m);
 /* ---- multilevel_whole.c -------------------------------------------------------------------------------- */
-/* A function as all ranks know it: its number, the vertex where it stands (both over all ranks), its owner,
- * whether nodes that are owned here add to its row, and its place, m. */
+/* A coarse function: its number and vertex (the same on all ranks), the rank that owns it, whether nodes
+ * owned by this rank contribute to its row, and its position, m. */
 typedef struct { int64_t key, vertex; int owner, touched; double place[3]; } function_of_all;
-/* Level 1 from the functions held here (meet.n) and their rows. All ranks call. */
+/* Makes level 1 from the functions held here (meet.n) and their rows of m->meet. All ranks must call. */
 pg_status multilevel_gather (pg_multilevel *m, const function_of_all *held);
 #endif

@@ -14,16 +14,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps of Lanczos. */
+/* Steps of conjugate gradients for the Lanczos matrix. */
 enum { LANCZOS = 10 };
-/* Factor on the largest Ritz value after so many steps, which approaches the eigenvalue from below. */
+/* Factor on the largest Ritz value after LANCZOS steps, which approaches the eigenvalue from below. */
 static const double margin = 1.05;
 
 /* ---- products and transfers ---------------------------------------------------------------------------- */
-/* Arguments of a parallel loop: input x, output out, coefficients of the smoother. */
+/* Arguments of a parallel loop: level, input x, output out, coefficients c1, c2 of the smoother. */
 typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } smoothing;
 
-/* Rows of blocks of 3 x 3. */
+/* y = A x for the rows first .. last - 1 of a matrix of 3 x 3 blocks. */
 PG_WIDE static void multiply_solid (const level *l, const double *x, double *y, size_t first, size_t last)
 {
     for (size_t i = first; i < last; i++) {
@@ -41,7 +41,7 @@ PG_WIDE static void multiply_solid (const level *l, const double *x, double *y, 
     }
 }
 
-/* Rows of blocks times x, with unrolled products for 2 unknowns per node. */
+/* out = A x for the rows first .. last - 1, with unrolled products for 2 unknowns per node. */
 static void multiply_rows (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -76,7 +76,7 @@ void level_multiply (const level *l, const double *x, double *y)
     pg_parallel (l->threads, l->n, multiply_rows, &w);
 }
 
-/* out = P' x: each function collects from its nodes, in their order. */
+/* out = P' x: each coarse function sums over its nodes, in their order. */
 static void restrict_functions (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -184,7 +184,7 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
 {
     pg_status status = PG_OK;
     level *l = &m->at[k];
-    /* On one thread: BLAS adds in another order on two, and the bits must not depend on their number. */
+    /* One thread only: BLAS adds in another order on two, and the bits must not depend on their number. */
     if (k + 1 == m->count && m->factor) {
         int threads = pg_linear_threads (1);
         status = m->direct->solve (m->factor, 1, b, z);
@@ -195,7 +195,7 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
     if (k + 1 == m->count && !m->shared) return PG_OK;
     level *c = l->part ? &m->meet : &m->at[k + 1];
     smoothing down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
-    /* The residual of the smoothed z, which the last change d has not entered yet. */
+    /* Residual of the smoothed z: the effect of the last change d of z is still to be subtracted. */
     PG_TRY (multiply_change (l));
     pg_parallel (l->threads, l->ndof, take_off, &down);
     pg_subdomain_clear_ghosts (l->part, (size_t) l->block, l->r);
@@ -208,7 +208,7 @@ done:
 }
 
 /* ---- bound --------------------------------------------------------------------------------------------- */
-/* a . b over the unknowns that are not masked, of all ranks. */
+/* a . b over the unknowns of all ranks that are not masked. */
 static double dot (const level *l, const double *a, const double *b)
 {
     double s = 0;
@@ -217,7 +217,7 @@ static double dot (const level *l, const double *a, const double *b)
     return level_sum (l, s);
 }
 
-/* Number of eigenvalues of the symmetric tridiagonal matrix above x (Sturm sequence). */
+/* Number of eigenvalues above x of a symmetric tridiagonal matrix (Sturm sequence). */
 static int above (int n, const double *diagonal, const double *off, double x)
 {
     int count = 0;
@@ -230,7 +230,7 @@ static int above (int n, const double *diagonal, const double *off, double x)
     return count;
 }
 
-/* Its largest eigenvalue by bisection, from Gershgorin's bound. */
+/* Largest eigenvalue of a symmetric tridiagonal matrix by bisection, from Gershgorin's bound. */
 static double largest (int n, const double *diagonal, const double *off)
 {
     double low = 0, high = 0;
@@ -246,7 +246,8 @@ static double largest (int n, const double *diagonal, const double *off)
 }
 
 /* Conjugate gradients on A x = b with a fixed pseudo-random b: their coefficients are the entries of the
- * Lanczos matrix of D^-1/2 A D^-1/2, whose eigenvalues are those of D^-1 A. No thread order enters. */
+ * Lanczos matrix of D^-1/2 A D^-1/2, whose eigenvalues are those of D^-1 A. The result does not depend on the
+ * number of threads. */
 pg_status level_bound (level *l)
 {
     pg_status status = PG_OK;

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Zero blocks are in the pattern but couple nothing. */
+/* On coarse levels blocks of zeros, which the pattern has, are left out. */
 size_t level_row (const level *l, size_t i, int thread, int *node, double *value)
 {
     if (l->rows.row) return l->rows.row (l->rows.context, i, thread, node, value);
@@ -53,7 +53,7 @@ done:
     return status;
 }
 
-/* Diagonal entries of a coarse matrix. */
+/* Copies the diagonal entries of a coarse matrix to `inverse`. */
 static void diagonal_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -65,7 +65,8 @@ static void diagonal_nodes (void *context, size_t first, size_t last, int thread
                 l->inverse[i * block + k] = l->value[(e * block + k) * block + k];
 }
 
-/* Unknowns without a positive diagonal are masked as if they were prescribed: a smoother divides by it. */
+/* Unknowns without a positive diagonal entry, by which smoothing divides, are masked as prescribed ones
+ * are. */
 pg_status level_diagonal (level *l, const unsigned char *fixed)
 {
     pg_status status = PG_OK;
@@ -84,8 +85,8 @@ done:
 }
 
 /* ---- pattern ------------------------------------------------------------------------------------------- */
-/* Counts, or lists ascending, the functions of all hat functions within `reach` cells of grid position
- * `at`. */
+/* Lists, ascending, the functions of all hat functions within `reach` cells of grid position `at`; out NULL:
+ * only counts. Returns their number. */
 static size_t neighbours_of (const level *f, const int *at, const int *reach, int *out)
 {
     size_t count = 0;
@@ -105,17 +106,17 @@ static size_t neighbours_of (const level *f, const int *at, const int *reach, in
     return count;
 }
 
-/* Pattern of A_c. Two hat functions are coupled if nodes under them are: a hat function extends one step
- * to either side, so that the couplings of two hat functions end before two steps and the reach of the
- * fine couplings. */
+/* Makes the pattern of A_c, and the positions of its nodes. Two hat functions are coupled if nodes under them
+ * are: a hat function extends one step to either side, so that two hat functions are coupled if they are less
+ * than two steps plus the reach of the fine couplings apart. */
 static pg_status make_pattern (level *c, const level *f)
 {
     pg_status status = PG_OK;
     int reach[3] = { 0 }, at[3] = { 0 };
     size_t bb = (size_t) (c->block * c->block);
-    /* Hat functions extend one step to each side: couplings of two hat functions end before two steps
-     * plus the reach. On a lattice the outermost node under a hat function is known: one lattice step inside
-     * its end, or half a one. */
+    /* Reach of the coarse couplings in cells: less than two cells plus the fine reach. On a lattice the
+     * outermost node under a hat function is known: one lattice step inside its end if aligned, else half a
+     * one. */
     for (int k = 0; k < f->dim; k++) {
         double share = f->grid.share_of[k], inside = share > 0 ? (f->grid.aligned ? 1 : 0.5) / share : 0;
         reach[k] = share > 0 ? (int) floor (2 * (1 - inside) + f->reach[k] / f->grid.step[k] + 1e-6)
@@ -168,17 +169,19 @@ typedef struct {
     pg_status status;
 } summer;
 
-/* Sums of a cell that many others are like. */
+/* Sums of one cell that serve for all cells like it. */
 typedef struct {
-    /* 1 for each cell that is one of them; NULL: none is. */
+    /* 1 for each cell that has these sums; NULL: none has (ncell). */
     unsigned char *like;
     size_t nrow, ncolumn;
-    /* Hat functions of rows and columns, as offsets from the cell's first corner (x 3). */
+    /* Hat functions of rows and columns, as grid offsets from the cell's first corner (nrow x 3, ncolumn x
+     * 3). */
     int   *row, *column;
     double *sum;
 } pattern;
 
-/* All that the threads share. */
+/* Data of one product P' A P, which all threads share: coarse level c, fine level f, workspaces of the
+ * threads, cells of the present group. */
 typedef struct {
     level *c;
     const level *f;
@@ -194,7 +197,8 @@ static inline void add_scaled (size_t bb, double w, const double *restrict a, do
     for (size_t k = 0; k < bb; k++) out[k] += w * a[k];
 }
 
-/* spread += each coupling times the functions at its node; their columns are known already. */
+/* spread += A P for one row of A with m couplings: each block times the functions at its node, whose columns
+ * have been made. */
 static inline void spread_row (const summer *s, const level *f, size_t bb, size_t m, const int *node,
                                const double *value)
 {
@@ -208,7 +212,7 @@ static inline void spread_row (const summer *s, const level *f, size_t bb, size_
     }
 }
 
-/* sum += functions at node i times spread. */
+/* sum += P' (A P) for node i: the functions at node i times spread. */
 static inline void gather_node (const summer *s, const level *f, size_t bb, size_t i)
 {
     size_t corners = (size_t) f->corners;
@@ -227,7 +231,7 @@ static void blank_masked (const level *f, int rows, int columns, double *B)
         for (int c = 0; c < f->block; c++) if ((rows >> a & 1) || (columns >> c & 1)) B[a * f->block + c] = 0;
 }
 
-/* The rows of a cell: all functions at its m nodes; of ranks at those that are owned, as in all sums. */
+/* Lists the rows of a cell: the functions at those of its m nodes that this rank owns. */
 static pg_status find_rows (summer *s, const level *f, const int *node, size_t m)
 {
     pg_status status = PG_OK;
@@ -243,7 +247,7 @@ done:
     return status;
 }
 
-/* Appends the column of function p, zero. */
+/* Appends a column of zeros for function p. */
 static pg_status new_column (summer *s, size_t bb, int p)
 {
     pg_status status = PG_OK;
@@ -257,14 +261,14 @@ done:
     return status;
 }
 
-/* Adds node i of the cell with its m couplings. */
+/* Adds node i of the cell, with the m couplings of its row of A, to the sums. */
 static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const int *node, double *value)
 {
     pg_status status = PG_OK;
     size_t bb = (size_t) (f->block * f->block), corners = (size_t) f->corners;
     for (size_t e = 0; e < m; e++) {
         size_t j = (size_t) node[e];
-        /* Masked unknowns neither give nor take. */
+        /* Masked unknowns take no part. */
         if (f->mask[i] | f->mask[j]) blank_masked (f, f->mask[i], f->mask[j], value + e * bb);
         for (size_t c = 0; c < corners; c++) {
             int p = f->coarse.function[j * corners + c];
@@ -272,7 +276,7 @@ static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const 
         }
     }
     if (s->ncolumn) memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
-    /* lengths that the compiler knows */
+    /* Blocks of 2 x 2 and 3 x 3 have loops of constant length. */
     if (bb == 4) spread_row (s, f, 4, m, node, value), gather_node (s, f, 4, i);
     else if (bb == 9) spread_row (s, f, 9, m, node, value), gather_node (s, f, 9, i);
     else spread_row (s, f, bb, m, node, value), gather_node (s, f, bb, i);
@@ -280,7 +284,7 @@ done:
     return status;
 }
 
-/* Place of p in an ascending list, -1: it is not there. */
+/* Returns the index of p in an ascending list; -1: it is not there. */
 static long find (const int *list, size_t n, int p)
 {
     size_t low = 0, high = n;
@@ -322,8 +326,8 @@ static void cell_place (const level *f, size_t cell, int *at)
         at[k] = (int) (cell % (size_t) f->grid.cells[k]), cell /= (size_t) f->grid.cells[k];
 }
 
-/* No node of the cell has a masked unknown, and no hat function at its corners is split. (Nodes that nobody
- * brings up to date are masked.) */
+/* Plain cell: no node has a masked unknown (ghosts that are never updated are masked), and no hat function at
+ * its corners is split. */
 static int is_plain (const level *f, size_t cell)
 {
     for (size_t p = f->coarse.cell_start[cell]; p < f->coarse.cell_start[cell + 1]; p++)
@@ -335,10 +339,10 @@ static int is_plain (const level *f, size_t cell)
     return 1;
 }
 
-/* What is known of a cell: it is plain; all its nodes have the same rows (and it is full). */
+/* Flags of a cell: it is plain; it has a node at each lattice site, and all its nodes have equal rows. */
 enum { PLAIN = 1, ALIKE = 2 };
 
-/* Marks the cells first .. last - 1 in pattern.like. */
+/* Sets the flags PLAIN and ALIKE of the cells first .. last - 1 in pattern.like. */
 static void classify (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -356,7 +360,7 @@ static void classify (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Are all cells within reach of its couplings plain, and none beyond the grid? */
+/* Are all cells that couplings of this cell's nodes reach plain, and none of them beyond the grid? */
 static int stands_free (const level *f, const unsigned char *like, size_t cell)
 {
     int at[3] = { 0 }, far[3] = { 0 };
@@ -366,7 +370,7 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
         if (at[k] < far[k] || at[k] + far[k] >= f->grid.cells[k]) return 0;
     }
     size_t sy = (size_t) f->grid.cells[0], sz = sy * (f->dim > 1 ? (size_t) f->grid.cells[1] : 1);
-    /* All cells that its couplings can reach. */
+    /* All cells that couplings of this cell can reach. */
     for (int z = at[2] - far[2]; z <= at[2] + far[2]; z++)
         for (int y = at[1] - far[1]; y <= at[1] + far[1]; y++)
             for (int x = at[0] - far[0]; x <= at[0] + far[0]; x++)
@@ -374,8 +378,7 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
     return 1;
 }
 
-/* Offset of a function's hat function from the first corner of a cell; the hat function by bisection in
- * `first`. */
+/* Grid offset of the hat function of a coarse function from the first corner of a cell. */
 static void offset_of (const level *f, const int *cell, int function, int *out)
 {
     size_t low = 0, high = f->grid.nvertex;
@@ -390,7 +393,7 @@ static void offset_of (const level *f, const int *cell, int function, int *out)
     for (int k = 0; k < f->dim; k++) out[k] -= cell[k];
 }
 
-/* The function at that offset from a cell; such hat functions have one function. */
+/* Returns the function at a grid offset from a cell whose hat functions are not split. */
 static int function_at (const level *f, const int *cell, const int *offset)
 {
     size_t vertex = 0, stride = 1;
@@ -402,7 +405,7 @@ static int function_at (const level *f, const int *cell, const int *offset)
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread);
 static void forget_cell (summer *s);
 
-/* Computes the sums of the first cell that is like others, and keeps them. */
+/* Computes the sums of a cell and keeps them for all cells like it. */
 static pg_status make_pattern_of (galerkin *g, size_t cell)
 {
     pg_status status = PG_OK;
@@ -424,7 +427,7 @@ done:
     return status;
 }
 
-/* Finds the cells that are alike; none where nodes form no lattice. */
+/* Finds the cells with equal sums, and computes these once; there are none where nodes form no lattice. */
 static pg_status find_alike (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -447,7 +450,7 @@ done:
     return status;
 }
 
-/* Rows and columns of a cell that is like the kept one. */
+/* Lists the functions of rows and columns of a cell that is like the one whose sums are kept. */
 static pg_status take_pattern (galerkin *g, size_t cell, summer *s)
 {
     pg_status status = PG_OK;
@@ -464,8 +467,8 @@ done:
     return status;
 }
 
-/* ---- all of them --------------------------------------------------------------------------------------- */
-/* Sums over the nodes of a cell, in ascending order. */
+/* ---- all cells ----------------------------------------------------------------------------------------- */
+/* Computes the sums of a cell over its nodes, in ascending order. */
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
 {
     pg_status status = PG_OK;
@@ -491,7 +494,7 @@ static void forget_cell (summer *s)
     for (size_t q = 0; q < s->ncolumn; q++) s->where[s->column[q]] = -1;
 }
 
-/* Sums of one cell, own or kept, into A_c. */
+/* Adds the sums of one cell, its own or those kept for cells like it, to A_c. */
 static pg_status sum_cell (galerkin *g, size_t cell, int thread)
 {
     pg_status status = PG_OK;
@@ -529,7 +532,7 @@ static size_t cells_of_parity (const level *f, int parity, size_t *out)
     return count;
 }
 
-/* One group of cells after the other. */
+/* Adds the sums of all cells, one group of equal parity after the other. */
 static pg_status sum_all (galerkin *g)
 {
     pg_status status = PG_OK;

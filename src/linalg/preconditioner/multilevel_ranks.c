@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The finest level of ranks that share the nodes of a lattice (perigal/ranks.h). Every rank has the nodes
- * that it holds and smooths them by its own loops; where one process has products with A, ranks bring the
- * ghosts of the vector up to date before. Of the coarse matrix P' A P and of right-hand sides P' r each rank
- * sums up what the nodes that it owns add, to functions of its own and of others, so that ghosts need be no
- * wider than products ask for. The sums over all ranks are a level like that of one process, which every
- * rank has in full as long as that is little work beside the finest level (multilevel_whole.c); else each
- * has the rows of the functions that it owns, and all ranks make the levels below together
- * (pg_shared_preconditioner, of PETSc).
+ * The finest level where ranks share the nodes of a lattice (perigal/ranks.h). Every rank smooths the nodes
+ * that it holds; before each product with A the ghosts of the vector are updated. Each rank computes the
+ * contributions of the nodes that it owns to the coarse matrix P' A P and to right-hand sides P' r, also for
+ * functions that other ranks own, so that the layer of ghosts need not be wider than products require. The
+ * sums over all ranks are a level as in one process, which every rank has in full as long as that is little
+ * work beside the finest level (multilevel_whole.c); else each rank has the rows of the functions that it
+ * owns, and all ranks make the levels below together (pg_shared_preconditioner, by PETSc).
  *
- * Grids are laid from site 0 of the whole lattice, so that all ranks have the same vertices. Which parts a
- * crack makes of a hat function no rank may see alone: each joins the nodes that its own ones are coupled
- * with, and they tell each other. A part is known by the least of its nodes, and belongs to the rank that
- * owns it. */
+ * Grids start at site 0 of the whole lattice, so that all ranks have the same vertices. Into which parts a
+ * crack splits a hat function one rank alone may not know: each rank joins the nodes that its own nodes are
+ * coupled with, and the results are exchanged. A part is named by its node of least number, and belongs to
+ * the rank that owns this node. */
 #include "multilevel.h"
 #include <limits.h>
 #include <math.h>
@@ -30,7 +29,7 @@ double level_sum (const level *l, double mine)
 }
 
 /* ---- the whole lattice --------------------------------------------------------------------------------- */
-/* Sites that each rank owns, and how many there are along each axis. */
+/* Collects the boxes of sites that the ranks own, and the number of sites along each axis. */
 static pg_status share_boxes (const pg_subdomain *part, level_ranks *out)
 {
     pg_status status = PG_OK;
@@ -58,8 +57,8 @@ static void place_of (const level_ranks *l, int64_t number, long long *at)
     for (int k = 0; k < 3; k++) at[k] = number % l->sites[k], number /= l->sites[k];
 }
 
-/* Whom nodes belong to. Ghosts take no part where they do not for their owners, nor where nobody tells what
- * they are. */
+/* Sets `from`, the neighbour that owns each node. Ghosts get the masks of their owners; ghosts that no
+ * neighbour sends are masked. */
 static pg_status agree_masks (level *l)
 {
     pg_status status = PG_OK;
@@ -122,7 +121,7 @@ void level_align (level *l, int axis)
 }
 
 /* ---- parts of hat functions ---------------------------------------------------------------------------- */
-/* A part of a hat function beside the first that is met. */
+/* A part of the hat function at a vertex, other than the first one found: its label and its number. */
 typedef struct { size_t vertex; double label; int part; } further;
 
 static int by_vertex (const void *a, const void *b)
@@ -132,7 +131,8 @@ static int by_vertex (const void *a, const void *b)
     return (x->label > y->label) - (x->label < y->label);
 }
 
-/* Each once, and which part of its hat function it is. */
+/* Sorts the list, drops repeated entries, and numbers the parts of each hat function. Returns how many are
+ * left. */
 static size_t number_further (further *list, size_t n, size_t *parts)
 {
     size_t last = 0;
@@ -152,7 +152,8 @@ static size_t vertex_of (const level *l, size_t entry)
     return level_vertex (l, (size_t) l->coarse.cell[entry / corners], (int) (entry % corners));
 }
 
-/* function: the part of each node's hat functions, from their labels. */
+/* Sets `function` to the part, of each of a node's hat functions, to which the node belongs, by the labels;
+ * parts: number of parts of each hat function. */
 static pg_status count_parts (level *l, size_t *parts)
 {
     pg_status status = PG_OK;
@@ -207,7 +208,8 @@ static int owner_of (const level_ranks *l, int dim, const long long *site)
     return 0;
 }
 
-/* The label of a part tells its least node and the corner of its cell. */
+/* Fills in number, vertex, owner and position of each function. Its number, the label of its part, is that of
+ * its least node times the corners of a cell, plus a corner. */
 static void number_functions (const level *f, function_of_all *out)
 {
     size_t corners = (size_t) f->corners;
@@ -234,8 +236,8 @@ static void number_functions (const level *f, function_of_all *out)
     }
 }
 
-/* ---- functions that others own ------------------------------------------------------------------------- */
-/* A function held here by its number. */
+/* ---- functions that other ranks own -------------------------------------------------------------------- */
+/* A function held here: its number over all ranks (key) and its index here. */
 typedef struct { int64_t key; int function; } named;
 
 static int by_key (const void *a, const void *b)
@@ -244,7 +246,8 @@ static int by_key (const void *a, const void *b)
     return (x->key > y->key) - (x->key < y->key);
 }
 
-/* What all ranks ask of others: three numbers each, who asks, whom, for which function. */
+/* Shares the requests of all ranks for functions that other ranks own: three numbers each, the rank that
+ * asks, the owner, the number of the function. */
 static pg_status ask (const function_of_all *f, size_t n, size_t *n_all, double **all)
 {
     pg_status status = PG_OK;
@@ -263,8 +266,8 @@ done:
     return status;
 }
 
-/* Ranks that ask here or are asked, ascending, and where the list of each begins. at (2 size): place of each
- * rank in `send`, then in `receive`. */
+/* Fills in the neighbours of the halo, ascending: ranks that ask this one or that it asks, and where their
+ * lists begin. at (2 size): where the list of each rank begins in `send`, then in `receive`. */
 static void list_ranks (pg_halo *h, size_t size, size_t n_all, const double *all, size_t *at)
 {
     size_t *send = at, *receive = at + size;
@@ -283,7 +286,7 @@ static void list_ranks (pg_halo *h, size_t size, size_t n_all, const double *all
     }
 }
 
-/* With each rank what it asks for here, and what is asked of it, in the order of the numbers. */
+/* Makes the halo: functions that each neighbour asks for are sent to it, those asked from it received. */
 static pg_status make_halo (pg_halo *h, const named *list, size_t n, size_t n_all, const double *all)
 {
     pg_status status = PG_OK;
@@ -313,7 +316,7 @@ done:
     return status;
 }
 
-/* Which functions are owned here, and the halo between them. */
+/* Makes the subdomain of the coarse level: which functions this rank owns, and the halo. */
 static pg_status divide (level *c, const function_of_all *f)
 {
     pg_status status = PG_OK;
@@ -340,7 +343,7 @@ done:
 
 /* ---- the levels below ---------------------------------------------------------------------------------- */
 /* Functions may be sums of others, where a crack leaves few nodes under them: the matrix is then singular,
- * and a share of its diagonal makes up for it, as in coarsest_matrix. */
+ * so that this share of its diagonal is added, as in coarsest_matrix. */
 static const double lift = 1e-10;
 
 static size_t row_of (void *context, size_t i, int thread, int *node, double *value)
@@ -353,7 +356,7 @@ static size_t row_of (void *context, size_t i, int thread, int *node, double *va
     return m;
 }
 
-/* Ranks make them together. The matrix is not needed any more when they are made. */
+/* Makes the levels below by the preconditioner that all ranks build together. */
 static pg_status pass_on (pg_multilevel *m, const function_of_all *f)
 {
     pg_status status = PG_OK;
@@ -376,8 +379,8 @@ done:
     return status;
 }
 
-/* Levels that every rank has for itself cost it at most this share of the work on the nodes that it owns, or
- * have so few unknowns that nothing else is faster. */
+/* Every rank has the coarse levels in full if they cost it at most this share of the work on the nodes that
+ * it owns, or if they have at most FEW unknowns. */
 static const double share_of_work = 0.3;
 enum { FEW = 1000 };
 
@@ -404,7 +407,7 @@ done:
     return status;
 }
 
-/* Owners of functions add what the others have for them. */
+/* Sums the right-hand side: owners of functions add the contributions of the other ranks. */
 static pg_status add_up (pg_multilevel *m)
 {
     pg_status status = PG_OK;

@@ -11,8 +11,8 @@
 /* Weights below this are left out. */
 static const double negligible = 1e-5;
 
-/* Grid with cells of about `step` (m). Where nodes form a lattice every cell holds the same nodes at the
- * same relative positions, so that rows of coarse matrices can be shared. */
+/* Makes a grid with cells of about `step` (m). Where nodes form a lattice, cells are whole lattice steps, so
+ * that all hold nodes at the same relative positions and rows of coarse matrices can be shared. */
 static void make_grid (level *l, double step)
 {
     l->grid.ncell = l->grid.nvertex = 1;
@@ -24,7 +24,7 @@ static void make_grid (level *l, double step)
         }
         double count = fmax (1, round ((high - low) / step)), h = l->rows.lattice[k];
         l->grid.low[k] = low, l->grid.step[k] = high > low ? (high - low) / count : 1;
-        /* Cells of whole lattice steps hold the same nodes at the same relative positions. */
+        /* On a lattice with step h: cells of whole lattice steps. */
         if (h > 0) {
             l->grid.share_of[k] = (int) fmax (1, round (step / h));
             l->grid.low[k] = l->grid.aligned ? low : low - h / 2, l->grid.step[k] = l->grid.share_of[k] * h;
@@ -57,8 +57,8 @@ void level_vertex_place (const level *l, size_t vertex, int *at)
 /* Has node i an unknown that is not masked? */
 static int takes_part (const level *l, size_t i) { return l->mask[i] != (1 << l->block) - 1; }
 
-/* Cell of each node, and the values of the hat functions at the cell's corners there. On a lattice the
- * position within the cell is rounded to the lattice, so that equal nodes have equal bits. */
+/* Finds the cell of each node, and the values at the node of the hat functions at the cell's corners. On a
+ * lattice the position within the cell is rounded to the lattice, so that equal nodes have equal bits. */
 static void place_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -101,11 +101,12 @@ done:
 }
 
 /* ---- parts of a hat function -------------------------------------------------------------------------- */
-/* Workspace of one thread: nodes under the hat function, queue of the search, couplings of a node; seen: hat
- * function + 1 of the last hat function that reached each node, of ranks the last of `mark` searches; met:
- * hat function + 1 of the last under which each neighbour has ghosts that have not been reached. */
+/* Workspace of one thread: nodes under the hat function, queue of the search, couplings of a node; seen:
+ * number + 1 of the last hat function whose search reached each node (with ranks: of the last search, of
+ * `mark`); met: number + 1 of the last hat function under which each neighbouring rank has ghosts not yet
+ * reached. */
 typedef struct { int *under, *queue, *node; size_t *seen, *met, mark; } walker;
-/* All threads: the level, their workspaces, the number of parts of each hat function. */
+/* What all threads share: the level, their workspaces, the number of parts of each hat function. */
 typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } search;
 
 /* Corner of node i's cell at which the hat function stands; -1: the node is not under the hat function. */
@@ -145,7 +146,7 @@ static size_t gather (const level *l, const int *vertex, int *under)
 
 /* Numbers the connected parts of the nodes under hat function h by breadth-first search along the couplings:
  * function[node, corner] = part. Ends early once all nodes have been reached. Returns the number of parts.
- * Each entry of `function` belongs to one hat function, so that threads do not meet. */
+ * Each entry of `function` belongs to one hat function, so that no two threads write to the same entry. */
 static size_t find_parts (level *l, size_t h, walker *w, int thread)
 {
     int vertex[3];
@@ -174,7 +175,8 @@ static size_t find_parts (level *l, size_t h, walker *w, int thread)
     return parts;
 }
 
-/* Of ranks: whom ghosts under hat function h belong to is noted in `met`; returns how many neighbours. */
+/* With ranks: notes in `met` the neighbouring ranks that own ghosts under hat function h; returns how many.
+ * */
 static size_t note_neighbours (const level *l, size_t h, walker *w, size_t count)
 {
     size_t n = 0;
@@ -185,9 +187,9 @@ static size_t note_neighbours (const level *l, size_t h, walker *w, size_t count
     return n;
 }
 
-/* Of ranks: joins the nodes under hat function h that couplings of owned nodes join; what others join they
- * tell (level_agree_parts). As soon as all owned nodes hang together, one ghost of each neighbour is enough:
- * where those of the neighbour do not, it looks at all of its own couplings. */
+/* With ranks: joins the nodes under hat function h that couplings of owned nodes connect; other ranks do so
+ * for theirs (level_agree_parts). Once all owned nodes are connected, one ghost of each neighbour suffices:
+ * if the neighbour's nodes are not connected, it goes through all of its own couplings. */
 static void join_parts (level *l, size_t h, walker *w, int thread)
 {
     const unsigned char *owned = l->part->owned;
@@ -217,7 +219,7 @@ static void join_parts (level *l, size_t h, walker *w, int thread)
     }
 }
 
-/* The hat functions first .. last - 1. */
+/* Finds the parts of the hat functions first .. last - 1. */
 static void search_vertices (void *context, size_t first, size_t last, int thread)
 {
     search *s = context;
@@ -226,7 +228,7 @@ static void search_vertices (void *context, size_t first, size_t last, int threa
         else s->parts[h] = find_parts (s->l, h, &s->walker[thread], thread);
 }
 
-/* Bound of the number of nodes under one hat function. */
+/* Returns an upper bound of the number of nodes under one hat function. */
 static size_t most_under (const level *l)
 {
     size_t most = 0;
@@ -296,7 +298,7 @@ done:
     return status;
 }
 
-/* Grid, then positions on it, then parts, then numbers. */
+/* Makes the grid, places the nodes on it, splits hat functions into parts and numbers these. */
 pg_status level_space (level *l, double step)
 {
     pg_status status = PG_OK;

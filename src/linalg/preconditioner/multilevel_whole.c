@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Level 1 of ranks that share the finest level (multilevel_ranks.c), in full on each of them: all learn of
- * all functions and of what each rank adds to their rows, and sum it up in the order of the ranks. Functions
- * are numbered by their vertices, as one process has them, whatever the division. What follows is the work
- * of one process, done by all of them at once: no messages but one sum of the right-hand side. */
+ * Level 1 where ranks share the finest level (multilevel_ranks.c), in full on each of them: every rank gets
+ * all functions and the contributions of all ranks to their rows, and sums these in the order of the ranks.
+ * Functions are numbered by their vertices, as in one process, whatever the division. Coarser levels are the
+ * work of one process, done by all ranks at once: no messages but one sum of the right-hand side. */
 #include "multilevel.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* What travels of a function: its number, its vertex, its place; of a row its function, how many couplings,
- * and of each coupling function and block. */
+/* What is sent of a function: number, vertex (NAME numbers), position; of a row: function, number of
+ * couplings (HEAD numbers), and of each coupling function and block. */
 enum { NAME = 2, HEAD = 2 };
 
 static int by_vertex (const void *a, const void *b)
@@ -18,7 +18,7 @@ static int by_vertex (const void *a, const void *b)
     return (x->key > y->key) - (x->key < y->key);
 }
 
-/* All functions, ascending. */
+/* Lists the functions of all ranks, ascending by vertex and number. */
 static pg_status list_functions (const function_of_all *held, size_t n, int dim, function_of_all **out,
                                  size_t *count)
 {
@@ -46,7 +46,7 @@ done:
     return status;
 }
 
-/* What each function held here is among all. */
+/* Sets m->whole: index of each function held here in the list of all functions. */
 static pg_status find_held (pg_multilevel *m, const function_of_all *held, const function_of_all *all,
                             size_t count)
 {
@@ -65,7 +65,7 @@ done:
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* What nodes that are owned here add, of all ranks one after the other. */
+/* Shares the rows to which owned nodes contribute: those of all ranks, one rank after the other. */
 static pg_status share_rows (const pg_multilevel *m, const function_of_all *held, size_t *n, double **all)
 {
     pg_status status = PG_OK;
@@ -94,8 +94,8 @@ done:
     return status;
 }
 
-/* Where rows of the list begin, function by function: those of function p are at[first[p]] ..
- * at[first[p + 1] - 1], in the order of the ranks. */
+/* Sorts the rows of the list `all` by functions: those of function p begin at at[first[p]] ..
+ * at[first[p + 1] - 1] in it, in the order of the ranks. */
 static pg_status sort_rows (const level *l, size_t n, const double *all, size_t **first, size_t **at)
 {
     pg_status status = PG_OK;
@@ -111,8 +111,8 @@ done:
     return status;
 }
 
-/* Number of different functions that a coarse function couples with, by its rows in the list `all`, at *begin
- * .. end[-1]; node: which (NULL: not wanted). where[q] > mark: function q is counted. */
+/* Counts the different functions that a coarse function is coupled with, by its rows in the list `all`, at
+ * *begin .. end[-1]; node: lists them (NULL: no). where[q] > mark: function q is counted already. */
 static size_t couplings_of (const double *all, const size_t *begin, const size_t *end, size_t wide,
                             size_t mark, size_t *where, int *node)
 {
@@ -128,7 +128,7 @@ static size_t couplings_of (const double *all, const size_t *begin, const size_t
     return m;
 }
 
-/* Rows of one function in the list become one: couplings ascending. */
+/* Adds the rows of function p in the list into one row of the level, couplings ascending. */
 static void add_row (level *l, size_t p, const double *all, const size_t *begin, const size_t *end,
                      size_t *where)
 {

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Stiff springs of ranks: constraints reach over the boundaries of parts, and W'W, which is solved twice in
- * each iteration, couples all of a set. Supports are a small part of a body: every rank has all columns of W
- * and the same factor of W'W, and a product W' x is a sum over ranks. */
+ * Stiff springs where ranks share the body: constraints cross the boundaries of subdomains, and W'W, which
+ * is solved with twice in each iteration, couples all constraints of a set. As supports are a small part of
+ * a body, every rank has all columns of W and the same factor of W'W, and a product W' x is a sum over
+ * ranks. */
 #include "shared_springs.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* What travels: of each spring the number of its entries, its stiffness, then row and value of each. */
+/* What is sent of each spring: number of its entries, stiffness (HEAD numbers), then row and value of each.
+ * */
 enum { HEAD = 2 };
 
 static pg_status gather (const pg_elements *e, const pg_subdomain *part, size_t *n, double **all)
@@ -31,7 +33,7 @@ done:
     return status;
 }
 
-/* The rows that any spring has, ascending, each once. */
+/* Lists the rows that any spring has, ascending, each once. */
 static pg_status list_rows (size_t n, const double *all, double **row, size_t *count)
 {
     pg_status status = PG_OK;
@@ -52,7 +54,8 @@ static int by_number (const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The unknown here that has this row, of an owned node; -1: there is none. */
+/* Returns the unknown of an owned node on this rank that has this row of the whole body; -1: there is none.
+ * */
 static long here (const pg_subdomain *part, size_t block, double row)
 {
     int64_t number = (int64_t) row / (int64_t) block;

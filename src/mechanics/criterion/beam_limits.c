@@ -2,9 +2,9 @@
  * A bond that bears shear breaks by the energy that a straight cut through such bonds would take: with s0,
  * gamma0, kappa0 the stretch, shear and bending that alone would consume G0 (Chen 2022 eq (14), corrected in
  * theory G5),
- *   together: (max (s, 0) / s0)^2 + (gamma / gamma0)^2 + (kappa / kappa0)^2 >= 1; single (the source's rule):
- *       any one of the three at its limit.
- * Shortening never breaks a bond. Where spacings differ all limits go with horizon^(-1/2). */
+ *   together: (max (s, 0) / s0)^2 + (gamma / gamma0)^2 + (kappa / kappa0)^2 >= 1; single (the rule of Chen
+ *       2022): any one of the three at its limit.
+ * Shortening never breaks a bond. Where spacings differ, all limits are proportional to horizon^(-1/2). */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,8 +12,8 @@
 
 enum { STRETCH, SHEAR, BENDING, ENERGY };
 
-/* From the fracture energy and the energy of a straight cut at unit stretch, shear and bending follow the
- * three limits; INFINITY where a cut stores no such energy. */
+/* Computes the three limits from the fracture energy and from the energy of a straight cut at unit stretch,
+ * shear and bending; INFINITY where a cut stores no such energy. */
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     double G0 = c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
@@ -24,7 +24,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
-/* Elongation along the undeformed bond. */
+/* Stretch of bond b, measured along the undeformed bond. */
 static double stretch_of (const pg_bond_measures *m, size_t b)
 {
     double rr = 0, re = 0;
@@ -33,8 +33,8 @@ static double stretch_of (const pg_bond_measures *m, size_t b)
     return re / rr;
 }
 
-/* `reach` is the support of the bond over the nominal horizon: limits from an energy go with its inverse
- * root. */
+/* `reach` is the support of the bond over the nominal horizon: limits from an energy are proportional to
+ * reach^(-1/2). */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t b = 0; b < m->n; b++) {
@@ -54,7 +54,7 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t b = 0; b < m->n; b++) f[b] = f[b] > 0 ? 1 / f[b] : INFINITY;
 }
 
-/* At one Poisson's ratio all constants of a bond go with Young's modulus. */
+/* All stiffnesses of a bond are proportional to Young's modulus, as Poisson's ratio is the same. */
 static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
 {
     c->parameter[ENERGY] *= ratio->of[PG_OF_ENERGY];

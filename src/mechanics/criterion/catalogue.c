@@ -51,8 +51,8 @@ const pg_key_catalogue pg_entry_keys_criterion = {
 
 const char *pg_criterion_names (void) { return names + 1; }
 
-/* One type for all materials, limits for each. Faults of all limits are collected before the first is
- * read. */
+/* All materials have one type of criterion, each its own limits. Faults of all limits are collected before
+ * the first is read. */
 pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,
                              const pg_criterion_setting *setting)
 {

@@ -8,15 +8,16 @@
 
 /* ---- state-based --------------------------------------------------------------------------------------- */
 enum { PANELS = 24 };
-static double point_of (int k, double *weight)         /* of 3 Gauss points on each of the panels of [0, 1] */
+/* Gauss point k and its weight, of 3 on each of PANELS panels of [0, 1]. */
+static double point_of (int k, double *weight)
 {
     static const double place[3] = { -0.774596669241483377035853, 0, 0.774596669241483377035853 };
     *weight = (k % 3 == 1 ? 8.0 : 5.0) / 18 / PANELS;
     return (k / 3 + (1 + place[k % 3]) / 2) / PANELS;
 }
 
-/* Of q, over horizon^(d + 1): what lies further than z along one axis; r = z + (1 - z) t^2 is smooth where
- * the cap begins */
+/* Part of the weighted volume q that lies further than z along one axis (in horizons), over horizon^(d + 1);
+ * the substitution r = z + (1 - z) t^2 makes the integrand smooth at r = z. */
 static double beyond (const pg_kernel *kernel, pg_mode mode, double z)
 {
     static const double pi = 3.14159265358979323846;
@@ -30,7 +31,7 @@ static double beyond (const pg_kernel *kernel, pg_mode mode, double z)
     return sum;
 }
 
-/* Outer integral over the distance z of a point from the cut, by the same Gauss points on panels. */
+/* Integrates over the distance z of a point from the cut by the Gauss points of point_of. */
 double pg_state_cut_share (pg_mode mode, const char *name, double A, double B)
 {
     const pg_kernel *kernel = pg_kernel_find (name);
@@ -44,7 +45,7 @@ double pg_state_cut_share (pg_mode mode, const char *name, double A, double B)
     return sum;
 }
 
-/* `toughness` corrects theory by what the sums of a lattice consume in truth. */
+/* `toughness` corrects theory by the energy of a cut through the sums of a lattice. */
 double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
 {
     double A, B;
@@ -53,8 +54,8 @@ double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
            * (s->toughness > 0 ? s->toughness : 1);
 }
 
-/* ---- bonds alone --------------------------------------------------------------------------------------- */
-/* s0^2 = ratio * G0 */
+/* ---- bond-based ---------------------------------------------------------------------------------------- */
+/* Returns s0^2 / G0, m^2/J. */
 static double ratio (const pg_criterion_setting *s)
 {
     static const double pi = 3.14159265358979323846;

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A crack grows where the energy that a new piece of it sets free reaches what it takes (Griffith 1921):
- * G0 per area in opening, G_II in sliding, each its own for every material or an expression of place
+ * A crack grows where the energy that a new piece of it releases reaches the energy that it takes (Griffith
+ * 1921): G0 per area in opening, G_II in sliding, each given per material or as an expression of position
  * (energies also of the direction of growth). This criterion judges tips, not bonds: it holds the limits, and
- * solve/growth/facet_growth.c compares them with J. With a strength cracks also begin where there is none
- * (Leguillon 2002: stress and energy together): tension and G0, or, with a cohesion, the shear stress of
- * Coulomb and G_II. */
+ * solve/growth/facet_growth.c compares them with J. With a strength new cracks also begin in sound material
+ * (Leguillon 2002: stress and energy together): by tension and G0, or, with a cohesion, by the shear stress
+ * of Coulomb and G_II. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { ENERGY, SHEAR, STRENGTH, COHESION, ANGLE };     /* parameter[]; NAN: not given, or not one number */
+/* Entries of pg_criterion.parameter (J/m^2, J/m^2, Pa, Pa, rad); NAN: not given, or an expression. */
+enum { ENERGY, SHEAR, STRENGTH, COHESION, ANGLE };
 
-typedef struct {                                       /* what does not fit into numbers */
-    pg_expression *of[ANGLE];                          /* limits of place (G0: and angle); NULL: a number */
+typedef struct {                                       /* data that are not numbers (pg_criterion.own) */
+    pg_expression *of[ANGLE];                          /* limits as functions of x, angle; NULL: a number */
     double *path; size_t npath;                        /* imposed path of all cracks, m (npath x 2) */
 } energy_release;
 
@@ -21,7 +22,7 @@ typedef struct {                                       /* what does not fit into
 static const char *const names[] = { "fracture_energy", "shear_fracture_energy", "tensile_strength",
                                      "cohesion", "friction_angle" };
 
-/* One limit: a number, an expression of place that is compiled, or NAN: not given. */
+/* Reads one limit: a number, an expression of position that is compiled, or NAN: not given. */
 static pg_status read_limit (pg_criterion *c, int which, const pg_scene *scene,
                              const pg_criterion_setting *setting)
 {
@@ -37,7 +38,7 @@ static pg_status read_limit (pg_criterion *c, int which, const pg_scene *scene,
                                    which < STRENGTH ? "J/m2" : "Pa"));
     if (pg_expression_uses (own->of[which], 't'))
         pg_scene_fault (scene, path, "may depend on x, y and angle (the direction of growth), not on t");
-    /* in space no single angle says how the new surface lies */
+    /* In 3D no single angle gives the orientation of the new surface. */
     if (setting->mode == PG_SOLID && pg_expression_uses (own->of[which], 'a'))
         pg_scene_fault (scene, path, "may depend on x, y and z; angle, the direction of growth, is for "
                                      "cracks in the plane");
@@ -45,7 +46,7 @@ done:
     return status;
 }
 
-/* Strength in shear: a cohesion, its angle, and the energy that sliding takes go together. */
+/* Checks the limits for shear: cohesion, friction angle and fracture energy of sliding need each other. */
 static void check_shear (const pg_scene *scene, const pg_criterion_setting *setting)
 {
     static const int with[2] = { ANGLE, SHEAR };
@@ -64,7 +65,7 @@ static void check_shear (const pg_scene *scene, const pg_criterion_setting *sett
     }
 }
 
-/* The imposed path; every material has a copy, so that each can be freed by itself. */
+/* Reads the imposed path; every material has a copy, so that each can be freed by itself. */
 static pg_status read_path (energy_release *own, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -105,7 +106,7 @@ static void clear (pg_criterion *c)
 }
 
 /* ---- limits -------------------------------------------------------------------------------------------- */
-/* The angle in expressions is that of growth, in [0, 2 pi). */
+/* Limits at x for growth at `angle`, which expressions get reduced to [0, 2 pi). */
 static void fracture (const pg_criterion *c, const double *x, double angle, pg_fracture_limits *out)
 {
     static const double turn = 6.28318530717958647692;

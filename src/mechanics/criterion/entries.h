@@ -14,27 +14,27 @@ const pg_criterion_type *pg_criterion_entry (size_t i);                /* NULL p
 extern const pg_key_table criterion_keys_energy, criterion_keys_tension, criterion_keys_shear;
 /* An option that criteria of bonds with a fracture energy share (keys.c): calibration. */
 extern const pg_key_table criterion_keys_calibration;
-/* What failure.calibration makes of the setting: c->growth is filled, and the factor of the energy of a
- * straight cut is returned, 1 where limits are those of theory. A calibration that is asked for and was not
- * measured is a fault of the scene. */
+/* Applies the key failure.calibration: fills c->growth and returns the energy that a growing crack consumes
+ * over that of a straight cut; 1: limits follow theory. It is a fault of the scene to ask for a calibration
+ * that was not measured. */
 double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
-/* Of criteria that have the key only so that a scene can change from one criterion to another: theory is all
- * there is. */
+/* Called by criteria that accept failure.calibration only so that a scene can change its criterion: any value
+ * but "theory" that is given is a fault of the scene. */
 void   pg_criterion_by_theory (const pg_scene *scene);
-/* ", ..." for describe: how limits allow for growth, or that they do not; "" for forces that know nothing
- * of it. */
+/* Writes "; ..." for `describe`: how limits allow for the energy of growing cracks; "" if they do not. */
 void   pg_criterion_say_growth (const pg_criterion *c, char *text, size_t size);
 
 enum { PG_LIMITS = 96 };                               /* bytes of a path such as materials.NAME.failure */
-/* The map that gives a need ("limit", or "limit or other") to the setting's material: its own, else
- * `failure`; returns 0: neither. */
+/* Finds the map of the scene in which a limit (need: "limit", or "limit or other") is given for the setting's
+ * material: that of the material, else `failure`. Returns 0 if neither has it. */
 int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting,
                          const char *need);
-/* A limit of the setting's material, SI; 0 when it is missing. */
+/* Returns a limit of the setting's material, SI; 0: it is missing. pg_criterion_never: 1: bonds that end in
+ * this material never break. */
 double pg_criterion_limit  (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit);
 int    pg_criterion_never  (const pg_scene *scene, const pg_criterion_setting *setting);
-/* Faults for limits that the materials lack and for those that would be ignored. type NULL: nothing
- * breaks. */
+/* Reports limits that the n materials lack, and limits that would be ignored, as faults of the scene. type
+ * NULL: nothing breaks. */
 void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, size_t n,
                          const pg_criterion_setting *setting);
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of failure that every criterion reads, and limits that several share. Those of one criterion stand in
- * its file. A limit may be given in materials.<name>.failure as well. */
+ * Keys of `failure` that every criterion reads, and limits that several criteria share. Keys of one criterion
+ * are in its own file. A limit may be given in materials.<name>.failure as well. */
 #include "entries.h"
 
 static const char choices[] =

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The limits of a criterion: those of materials.NAME.failure before those of failure; which are missing,
- * which would be ignored. */
+ * The limits of a criterion: those of materials.NAME.failure come before those of failure; checks which are
+ * missing, and which would be ignored. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 enum { WORD = 32, NEED = 3 * WORD };
 
-/* The words of a need, "a" or "a or b". */
+/* Splits a need, "a" or "a or b", into its one or two words; returns how many. */
 static int words_of (const char *need, char word[2][WORD])
 {
     return sscanf (need, "%31s or %31s", word[0], word[1]);
@@ -27,7 +27,8 @@ static void own_map (char *map, const char *material)
     snprintf (map, PG_LIMITS, "materials.%.63s.failure", material);
 }
 
-/* A material's own limits come first, all or none of an either-or: else those of `failure`. */
+/* A material's own limits come before those of `failure`; of "a or b" the material has its own if it gives
+ * either. */
 int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting,
                          const char *need)
 {
@@ -110,14 +111,14 @@ void pg_criterion_say_growth (const pg_criterion *c, char *text, size_t size)
 /* ---- keys of a criterion ------------------------------------------------------------------------------- */
 static const char *last_word (const pg_key *key) { return strrchr (key->path, '.') + 1; }
 
-/* The k-th of its limits, over all tables; NULL past the end. */
+/* Returns the key of the k-th limit of a criterion, counted over all its tables; NULL past the end. */
 static const pg_key *limit_of (const pg_criterion_type *type, size_t k)
 {
     for (pg_key_tables t = type->limits; *t; k -= (*t)->n, t++) if (k < (*t)->n) return &(*t)->key[k];
     return NULL;
 }
 
-/* Is the k-th limit in one of the tables of which none needs to be given? */
+/* Is the k-th limit in one of the tables whose limits may be left out (pg_criterion_type.needed)? */
 static int may_lack (const pg_criterion_type *type, size_t k)
 {
     size_t n = 0;
@@ -125,8 +126,8 @@ static int may_lack (const pg_criterion_type *type, size_t k)
     return type->needed && k >= n;
 }
 
-/* What the k-th limit makes needed: "a", or "a or b" for the first of a group; "": nothing. 0: past the last
- * limit. */
+/* Writes what must be given because of the k-th limit: "a", or "a or b" for the first of a group; "":
+ * nothing. Returns 0 past the last limit. */
 static int need_of (const pg_criterion_type *type, size_t k, char need[NEED])
 {
     const pg_key *key = limit_of (type, k), *other;
@@ -149,14 +150,14 @@ static int holds (pg_key_tables list, const pg_key_table *table)
     return *list != NULL;
 }
 
-/* Is it a table of this criterion? */
+/* Is `table` one of this criterion? */
 static int owns (const pg_criterion_type *type, const pg_key_table *table)
 {
     return holds (type->limits, table) || holds (type->options, table);
 }
 
 /* ---- checks -------------------------------------------------------------------------------------------- */
-/* Keys of a table that are given in a map though nothing asks for them. */
+/* Reports keys of a table that the scene gives in a map without effect. */
 static void tell_given (const pg_scene *scene, const pg_criterion_type *type, const pg_key_table *table,
                         const char *map, int never)
 {
@@ -170,14 +171,14 @@ static void tell_given (const pg_scene *scene, const pg_criterion_type *type, co
     }
 }
 
-/* Shared tables are looked at once, with the first criterion that has them. */
+/* Does a criterion before this entry have the table? Shared tables are checked with the first one only. */
 static int owned_before (size_t entry, const pg_key_table *table)
 {
     for (size_t e = 0; e < entry; e++) if (owns (pg_criterion_entry (e), table)) return 1;
     return 0;
 }
 
-/* Keys of all criteria, each table once. */
+/* Reports the keys of all criteria that are given in a map without effect. */
 static void superfluous (const pg_scene *scene, const pg_criterion_type *type, const char *map, int never)
 {
     const pg_criterion_type *any;
@@ -189,7 +190,7 @@ static void superfluous (const pg_scene *scene, const pg_criterion_type *type, c
     }
 }
 
-/* "failure.a", "either failure.a or failure.b" */
+/* Writes a need for messages: "failure.a", or "either failure.a or failure.b". */
 static void spell (char *text, size_t size, const char *need)
 {
     char word[2][WORD];
@@ -197,7 +198,8 @@ static void spell (char *text, size_t size, const char *need)
     else snprintf (text, size, "failure.%s", word[0]);
 }
 
-/* A limit that all lack is one fault, else each material that lacks it is one. */
+/* Reports a limit that is needed and missing: one fault if all materials lack it, else one for each that
+ * does. */
 static void missing (const pg_scene *scene, const pg_criterion_type *type, const char *need, size_t n,
                      const pg_criterion_setting *setting)
 {
@@ -219,7 +221,7 @@ static void missing (const pg_scene *scene, const pg_criterion_type *type, const
     }
 }
 
-/* First what is given in vain, then what is missing. */
+/* Reports first limits that are given without effect, then those that are missing. */
 void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, size_t n,
                          const pg_criterion_setting *setting)
 {

@@ -16,14 +16,14 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
-/* Sine of the angle of friction, and what cohesion bears. */
+/* Sine of the friction angle phi, and c cos phi, the shear strength of the cohesion, Pa. */
 static void friction (const pg_criterion *c, double *sine, double *bound)
 {
     *sine = sin (c->parameter[ANGLE]), *bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
 }
 
-/* The larger of the two: tension over the tensile strength, and the shear stress on the critical plane
- * over what cohesion and friction bear. Compression in all directions gives a negative one, which is none. */
+/* The larger of two utilisations: tension over the tensile strength, and shear stress on the critical plane
+ * over the strength by cohesion and friction. A negative one (compression in all directions) becomes 0. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     double sine, bound;
@@ -37,7 +37,7 @@ static void utilisation (const pg_criterion *c, const pg_bond_measures *m, doubl
     }
 }
 
-/* Both are of degree 1 in the stress. */
+/* The load factor is 1 / utilisation, which is of degree 1 in the stress. */
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
     utilisation (c, m, f, NULL);
@@ -50,7 +50,7 @@ static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
     c->parameter[COHESION] *= ratio->of[PG_OF_COHESION];
 }
 
-/* Tension and shear. */
+/* Coefficients of s1 and s3 in the two utilisations, tension and shear, 1/Pa. */
 static int planes (const pg_criterion *c, double form[2][2])
 {
     double sine, bound;

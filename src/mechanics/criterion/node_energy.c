@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A point dies when its stored energy density W reaches W_c = wc_factor G0 / horizon, and all its bonds with
- * it, for good (Jafarzadeh et al. 2022; theory B2). Utilisation sqrt (W / W_c): of degree 1 in the
- * displacement, as that of the other criteria. Where spacings differ W_c is that of the point's own
+ * All bonds of a point break for good when its stored energy density W reaches W_c = wc_factor G0 / horizon
+ * (Jafarzadeh et al. 2022; theory B2). Utilisation sqrt (W / W_c): of degree 1 in the displacement, as those
+ * of the other criteria. Where spacings differ, W_c is that of the point's own
  * horizon. */
 #include "entries.h"
 #include <math.h>
@@ -9,13 +9,13 @@
 
 enum { LIMIT, ENERGY, FACTOR };
 
-/* The limit of the energy density, wc_factor G0 / horizon. */
+/* Reads the limit of the energy density, wc_factor G0 / horizon, J/m^3. */
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS];
     pg_criterion_by_theory (scene);
     c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
-    if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* missing: a fault already */
+    if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* it is missing, which has been reported */
     pg_criterion_holder (map, scene, setting, "wc_factor");
     c->parameter[FACTOR] = pg_scene_number (scene, "%s.wc_factor", map);
     c->parameter[LIMIT] = c->parameter[FACTOR] * c->parameter[ENERGY] / setting->horizon;
@@ -27,7 +27,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
-/* A root, so that it is of degree 1 in the displacement: energy is of degree 2. */
+/* sqrt (W / W_c) is of degree 1 in the displacement, as energy is of degree 2. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t i = 0; i < m->n; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A bond breaks when its stretch reaches the critical one; shortening never breaks it. From a fracture energy
- * s0 ~ horizon^(-1/2): where spacings differ every bond has the limit of its own support. linear: s = xi .
- * eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. theory F6. */
+ * A bond breaks when its stretch reaches the critical stretch s0; shortening never breaks it. A fracture
+ * energy gives s0 ~ horizon^(-1/2): where spacings differ, every bond has the limit of its own support.
+ * linear: s = xi . eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. theory F6. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +11,8 @@ enum { LIMIT, FINITE, ENERGY, FROM_ENERGY, GRADED, EXACT };
 
 #define EITHER "critical_stretch or fracture_energy"
 
-/* One of the two limits is given, the other follows. Forces that know only one measure of stretch decide
- * between linear and finite. */
+/* Reads critical stretch or fracture energy and computes the other. Forces that know only one measure of
+ * stretch (linear or finite) determine which one is used. */
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS], path[PG_LIMITS + 32];
@@ -34,7 +34,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
                       * pg_criterion_calibration (c, scene, setting);
     if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (&grown, c->parameter[ENERGY]);
     else c->parameter[ENERGY] = pg_energy_from_stretch (&grown, c->parameter[LIMIT]);
-    int passed = isnan (c->parameter[ENERGY]) && energy;     /* no number at all */
+    int passed = isnan (c->parameter[ENERGY]) && energy;     /* an expression without a reference value */
     if (!passed && (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT]))) {
         snprintf (path, sizeof path, "%s.fracture_energy", map);
         if (isnan (setting->modulus))
@@ -46,7 +46,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
-/* From an energy s0 ~ sqrt (G0 / E); a critical stretch that is given stands for G0 ~ E s0^2. */
+/* A fracture energy gives s0 ~ sqrt (G0 / E); a critical stretch that is given means G0 ~ E s0^2. */
 static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
 {
     const double *of = ratio->of;
@@ -56,7 +56,7 @@ static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
                                    : of[PG_OF_STIFFNESS] * of[PG_OF_STRETCH] * of[PG_OF_STRETCH];
 }
 
-/* xi . xi, xi . eta, eta . eta of one bond */
+/* rr = xi . xi, re = xi . eta, ee = eta . eta of one bond, m^2. */
 static void products (int dim, const double *xi, const double *eta, double *rr, double *re, double *ee)
 {
     *rr = *re = *ee = 0;
@@ -67,7 +67,7 @@ static void products (int dim, const double *xi, const double *eta, double *rr, 
     }
 }
 
-/* Where spacings differ, a limit from an energy is that of the bond's own support. */
+/* Returns the critical stretch of bond b: one from a fracture energy depends on the bond's own support. */
 static double limit_of (const pg_criterion *c, const pg_bond_measures *m, size_t b)
 {
     double limit = c->parameter[LIMIT];
@@ -97,7 +97,7 @@ static double finite_root (double A, double B, double C)
     return B >= 0 ? -C / (B + root) : (root - B) / A;
 }
 
-/* linear: of degree 1. finite: the root of a quadratic equation. */
+/* Load factor at the limit. linear: limit / stretch; finite: the root of a quadratic equation. */
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
     double rr, re, ee;
@@ -111,7 +111,7 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     }
 }
 
-/* xi . eta / (xi . xi limit), of the stretch along the undeformed bond. */
+/* Writes a = xi / (xi . xi limit), 1/m: the utilisation is a . eta (linear measure only, else returns 0). */
 static int linear (const pg_criterion *c, const pg_bond_measures *m, double *a)
 {
     if (c->parameter[FINITE] > 0) return 0;
@@ -124,7 +124,7 @@ static int linear (const pg_criterion *c, const pg_bond_measures *m, double *a)
     return 1;
 }
 
-/* linear: 2 s; finite: (1 + s)^2 - 1 */
+/* Elongation e at utilisation u > 0: linear: 2 s; finite: (1 + s)^2 - 1, with s = u s0. */
 static double elongation (const pg_criterion *c, double u, double *square)
 {
     double s = u * c->parameter[LIMIT];

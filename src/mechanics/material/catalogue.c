@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The entries of list.h, and behind them those that the calling program has added. Names of both are
- * joined in `names`, for choices of keys and messages; the first bar is left out. */
+/* Materials are the entries of list.h (table), and behind them those that the calling program has added.
+ * `names` joins the names of all by bars, for choices of keys and messages, with a bar in front. */
 static const pg_material_type *const table[] = {
 #define PG_MATERIAL(name) &pg_material_##name,
 #include "list.h"
@@ -22,7 +22,7 @@ static char names[64 * (MOST_ADDED + 4)] =
 #undef PG_MATERIAL
     ;
 
-/* NULL: there is none of this name. */
+/* Finds a material by its name; NULL: there is none. */
 const pg_material_type *pg_material_find (const char *name)
 {
     for (size_t i = 0; name && i < sizeof table / sizeof *table; i++)
@@ -34,8 +34,8 @@ const pg_material_type *pg_material_find (const char *name)
 
 const char *pg_material_names (void) { return names + 1; }
 
-/* For programs that bring a material of their own, before any scene is read: its keys join those of the
- * scene, which gathers them when the first scene is read. */
+/* Adds a material of the calling program. To be called before any scene is read, as the keys of all materials
+ * are collected when the first scene is read. */
 pg_status pg_material_add (const pg_material_type *type)
 {
     pg_status status = PG_OK;
@@ -51,10 +51,10 @@ done:
     return status;
 }
 
-/* Components of a symmetric tensor: 1, 3 or 6. */
+/* Number of components of a symmetric tensor: 1, 3 or 6. */
 int pg_voigt_size (int dim) { return dim * (dim + 1) / 2; }
 
-/* The place of component ij in Voigt order: xx, yy, zz, xy, yz, zx, of a plane xx, yy, xy. */
+/* Index of component ij in Voigt order: 3D: xx, yy, zz, xy, yz, zx; 2D: xx, yy, xy. */
 int pg_voigt_at (int dim, int i, int j)
 {
     static const int solid[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
@@ -63,7 +63,7 @@ int pg_voigt_at (int dim, int i, int j)
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
-/* Entry i of both lists together; NULL past the last. */
+/* Material i of table and added ones together; NULL past the last. */
 static const pg_material_type *entry (size_t i)
 {
     size_t own = sizeof table / sizeof *table;
@@ -88,8 +88,8 @@ static void list_keys (const pg_material_type *type, char *text, size_t size)
                                        strrchr ((*t)->key[k].path, '.') + 1);
 }
 
-/* Every model brings keys of its own, and the scene knows them all: those of another model would do nothing,
- * without a word. */
+/* Reports keys of other models. The scene accepts the keys of all models, and those of another one would have
+ * no effect. */
 static void check_keys (const pg_material *m, const pg_scene *scene)
 {
     char map[96], path[PG_STRAY_PATH], reads[400];
@@ -100,8 +100,8 @@ static void check_keys (const pg_material *m, const pg_scene *scene)
                         reads);
 }
 
-/* Material `name` of the scene: common keys here, the rest by the model; a constant that is not of this
- * model is a fault. E, nu stay NAN where a model has none. */
+/* Reads material `name` of the scene: common keys here, the rest by the model; keys of other models are
+ * faults. E and nu stay NAN if the model has none. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode)
 {
     return pg_material_read_graded (out, scene, name, mode, NAN);

@@ -6,14 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Components of stress in the mode. */
+/* Number of stress components in this mode. */
 static int size_of (pg_mode mode)
 {
     return mode == PG_SOLID ? 6 : mode == PG_LINE ? 1 : 3;
 }
 
-/* D (1, 3 or 6 components, Pa): lambda tr (eps) 1 + 2 mu eps with engineering shears. In plane stress
- * lambda is 2 lambda mu / (lambda + 2 mu) = E nu / (1 - nu^2); a bar has E alone. */
+/* D (1, 3 or 6 rows and columns, Pa): stress lambda tr (eps) 1 + 2 mu eps, engineering shears. In plane
+ * stress lambda is 2 lambda mu / (lambda + 2 mu) = E nu / (1 - nu^2); a bar has E alone. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
 {
     int nv = size_of (mode), nn = nv == 6 ? 3 : nv == 3 ? 2 : 1;       /* components, normal ones */
@@ -26,9 +26,9 @@ void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
     if (mode == PG_LINE) D[0] = E;
 }
 
-/* Bulk modulus of the dimension and shear modulus in the constants of state-based bonds (theory B6):
- * dilation d kappa - (d + 2) mu, deviation d (d + 2) mu, Pa, whose sum for uniform strain is the energy
- * of E and nu. */
+/* Constants of state-based bonds (theory B6) from the bulk modulus kappa of d dimensions and the shear
+ * modulus mu: dilation d kappa - (d + 2) mu, deviation d (d + 2) mu, Pa. With these a uniform strain has the
+ * energy of E and nu. */
 void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation)
 {
     double mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), d = mode == PG_SOLID ? 3 : 2;
@@ -39,7 +39,8 @@ void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, doubl
     *deviation = mode == PG_LINE ? E : d * (d + 2) * mu;
 }
 
-/* All that follows from E and nu; forces that know only one Poisson's ratio set it by this as well. */
+/* Sets all constants that follow from E (Pa) and nu. Forces that allow only one Poisson's ratio call this
+ * too. */
 void pg_elastic_set (pg_material *m, double E, double nu)
 {
     m->E = m->modulus = E, m->nu = nu, m->mu = E / (2 * (1 + nu));
@@ -49,13 +50,13 @@ void pg_elastic_set (pg_material *m, double E, double nu)
         m->out_of_plane[0] = m->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
 }
 
-/* Ranges of the keys have made sure that D is positive definite. */
+/* Reads E and nu, whose ranges (of the keys) make D positive definite. */
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
     char path[96];
     double E = pg_scene_number (scene, "materials.%s.youngs_modulus", m->name);
     snprintf (path, sizeof path, "materials.%s.youngs_modulus", m->name);
-    if (isnan (E)) E = m->E;                           /* an expression: of the reference */
+    if (isnan (E)) E = m->E;                           /* an expression: takes the reference value */
     if (isnan (E)) pg_scene_fault (scene, path, "must be one number here, no expression of place");
     pg_elastic_set (m, E, pg_scene_number (scene, "materials.%s.poissons_ratio", m->name));
     return PG_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of materials.<name> that every model reads; those of one model stand in its file. */
+ * Keys of materials.<name> that every model reads; keys of one model are in its own file. */
 #include "entries.h"
 
 static const pg_key keys[] = {

@@ -59,7 +59,7 @@ static const pg_key keys[] = {
 };
 static const pg_key_table table = { "material", keys, sizeof keys / sizeof *keys };
 
-/* Places a fault at a key of the material, or at the material where no key is to blame. */
+/* Reports a fault at a key of the material, or at the material itself (key ""). */
 static void fault (const pg_scene *scene, const pg_material *m, const char *key, const char *why)
 {
     char path[160];
@@ -67,7 +67,7 @@ static void fault (const pg_scene *scene, const pg_material *m, const char *key,
     pg_scene_fault (scene, path, "%s", why);
 }
 
-/* Has the scene all constants that this mode needs? Those of two axes are required by their keys. */
+/* Does the scene give all constants that this mode needs? Those of axes 1 and 2 have required keys. */
 static int complete (const pg_material *m, const pg_scene *scene)
 {
     int all = 1;
@@ -85,8 +85,8 @@ static int complete (const pg_material *m, const pg_scene *scene)
     return all;
 }
 
-/* Compliance of normal stresses, 1/Pa, of n = 2 or 3 axes (theirs alone: shears are apart): 1 / E_i on
- * the diagonal, -nu_ij / E_i beside it. */
+/* Compliance S of the normal stresses, 1/Pa (n x n), for n = 2 or 3 axes: 1 / E_i on the diagonal, -nu_ij /
+ * E_i off it. Shears are not coupled with them. */
 static void normal_compliance (int n, const double c[CONSTANTS], double *S)
 {
     static const int ratio[3][3] = { { 0, NU12, NU13 }, { NU12, 0, NU23 }, { NU13, NU23, 0 } };
@@ -95,7 +95,8 @@ static void normal_compliance (int n, const double c[CONSTANTS], double *S)
             S[n * i + j] = i == j ? 1 / c[E1 + i] : -c[ratio[i][j]] / c[E1 + (i < j ? i : j)];
 }
 
-/* Every strain must store energy: each nu_ij^2 < E_i / E_j, and all three together a positive determinant. */
+/* Does every strain store energy: is each nu_ij^2 < E_i / E_j, and the determinant of the compliance
+ * positive? */
 static int is_positive (const pg_material *m, const pg_scene *scene, int n, const double c[CONSTANTS])
 {
     static const struct {
@@ -122,14 +123,14 @@ static int is_positive (const pg_material *m, const pg_scene *scene, int n, cons
     return 0;
 }
 
-/* Inverse of the n x n compliance into the upper left of the 6 x 6 stiffness C, Pa, column by column;
- * shear moduli on its diagonal, in Voigt order (12, 23, 13). */
+/* Makes the 6 x 6 stiffness C, Pa, of the material's axes: upper left the inverse of the n x n compliance,
+ * then the shear moduli on the diagonal, in Voigt order (12, 23, 13). */
 static void stiffness (int n, const double c[CONSTANTS], double C[36])
 {
     double S[9];
     memset (C, 0, 36 * sizeof *C);
     normal_compliance (n, c, S);
-    /* Unit stresses one after the other: the strain's compliance is solved for them, S C = 1. */
+    /* Column by column: S C = 1. */
     pg_dense_cholesky (n, S, 0);
     for (int j = 0; j < n; j++) {
         double unit[3] = { 0 };
@@ -140,8 +141,8 @@ static void stiffness (int n, const double c[CONSTANTS], double C[36])
     C[6 * 3 + 3] = c[G12], C[6 * 4 + 4] = c[G23], C[6 * 5 + 5] = c[G13];
 }
 
-/* Axes are given by an angle in the plane and by two vectors in space; keys of the other number of
- * dimensions are faults. 0: there are some. */
+/* Axes are given by an angle in 2D and by two vectors in 3D; keys for the other dimension are faults. Returns
+ * 0 if there are any. */
 static int axes_fit (const pg_material *m, const pg_scene *scene)
 {
     static const char *const key[3] = { "angle", "axis_1", "axis_2" };
@@ -156,8 +157,8 @@ static int axes_fit (const pg_material *m, const pg_scene *scene)
     return 1;
 }
 
-/* Axis 1 and a vector in the plane of axes 1 and 2 become three unit vectors at right angles (Gram-Schmidt),
- * the rows of R. 0: they span no plane. */
+/* Makes three orthogonal unit vectors, the rows of R, from axis 1 and a vector in the plane of axes 1 and 2
+ * (Gram-Schmidt). Returns 0 if these span no plane. */
 static int read_vectors (const pg_material *m, const pg_scene *scene, double R[9])
 {
     static const char *const key[2] = { "axis_1", "axis_2" };
@@ -173,8 +174,8 @@ static int read_vectors (const pg_material *m, const pg_scene *scene, double R[9
     for (int k = 0; k < 3; k++) R[k] /= size[0], R[3 + k] /= size[1], along += R[k] * R[3 + k];
     for (int k = 0; k < 3; k++) R[3 + k] -= along * R[k];
     double left = pg_size (3, R + 3);
-    /* What is left of axis 2 is the sine of the angle between the two: below 1e-6 its direction would be
-     * rounding. */
+    /* The length of what is left of axis 2 is the sine of the angle between the two vectors: below 1e-6 its
+     * direction would be rounding errors. */
     if (!(left > 1e-6)) {
         fault (scene, m, key[pg_scene_given (scene, "materials.%s.axis_2", m->name)],
                "axis_1 and axis_2 point the same way: give two vectors that span a plane");
@@ -186,7 +187,8 @@ static int read_vectors (const pg_material *m, const pg_scene *scene, double R[9
     return 1;
 }
 
-/* Rows of R: the axes 1, 2, 3 of the material in those of the scene. 0: the scene is wrong about them. */
+/* Reads the axes 1, 2, 3 of the material: the rows of R, in axes of the scene. Returns 0 if they are wrong.
+ * */
 static int read_axes (const pg_material *m, const pg_scene *scene, double R[9])
 {
     if (!axes_fit (m, scene)) return 0;
@@ -198,13 +200,13 @@ static int read_axes (const pg_material *m, const pg_scene *scene, double R[9])
     return 1;
 }
 
-/* Takes the rows and columns of the mode out of the stiffness of a solid. In plane stress C was inverted
- * from the compliance of two axes, so that it is the reduced stiffness already; in plane strain sigma_zz
- * is what the row zz makes. */
+/* Copies the rows and columns of the mode from the 6 x 6 stiffness. For plane stress it was inverted from
+ * the compliance of two axes, so that it is the reduced stiffness already; in plane strain row zz gives
+ * sigma_zz. */
 static void reduce (pg_material *m, const double D[36])
 {
     static const int plane[3] = { 0, 1, 3 };
-    /* Voigt order of a solid is 11, 22, 33, 12, 23, 13, that of a plane 11, 22, 12: rows 0, 1, 3. */
+    /* Voigt order in 3D is 11, 22, 33, 12, 23, 13, in 2D 11, 22, 12: rows 0, 1, 3 of 3D. */
     if (m->mode == PG_SOLID) memcpy (m->D, D, 36 * sizeof *D);
     else for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++) m->D[3 * a + b] = D[6 * plane[a] + plane[b]];
@@ -212,8 +214,8 @@ static void reduce (pg_material *m, const double D[36])
     }
 }
 
-/* Checks first, so that nothing is computed from constants that cannot be. modulus, the largest of the
- * axes, is what stable steps and penalties are measured in; mu is a mean for the same purpose. */
+/* Reads the constants, checks them, and computes the stiffness. modulus is the largest Young's modulus of the
+ * axes, for estimates of stable steps and penalties; mu is a mean shear modulus for the same purpose. */
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
     double c[CONSTANTS], C[36], D[36], R[9];
@@ -234,7 +236,7 @@ static pg_status read (pg_material *m, const pg_scene *scene)
     return PG_OK;
 }
 
-/* The constants that the mode uses, for plans. */
+/* Writes the constants that the mode uses, for reports. */
 static void describe (const pg_material *m, char *text, size_t size)
 {
     const double *c = m->parameter;
