@@ -1,44 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Contact of crack faces by the bonds that crossed them. Dead bonds that cross a piece of a crack are what is
- * left of the layer between its faces. With w the stiffness of such a bond along itself, e its direction from
- * the one side to the other, xi_n its length along the normal and e_a its parts along normal and tangents,
- * the stress of the layer under the strain of unit traction mode a stretches it by p_a = xi_n e_a, and
+ * Contact of crack faces by the bonds that crossed them. Broken bonds that cross a piece of a crack stand for
+ * the layer between its faces. With w the stiffness of such a bond along itself, e its direction from side -
+ * to side +, xi_n its length along the normal and e_a the components of e along normal and tangents, unit
+ * strain of the layer in traction mode a (0: opening, else sliding) elongates the bond by p_a = xi_n e_a, and
  *
  *     r_a (u) = sum w p_a e . (u+ - u-),     A_ac = sum w p_a e_c  (r_a of a unit jump along c),
  *     g = A^-1 r (u):  a mean jump along c is 1 in g_c and 0 in the others.
  *
- * The bonds stay along their own lines, so that forces conjugate to g are in balance, their moment too, and
- * motions of a rigid body have no g. In a closed layer g is besides what its bonds are strained by, l_a =
- * (A^-1 Q)_aa per unit strain, Q_ac = sum w p_a p_c; as the body would bear the stress M or G times that, a
- * pair gives way by l / (M area) or l / (G area) per unit force: it transmits what the intact layer did.
- * Single bonds that bear compression alone would lock the crack: inclined ones act as struts. */
+ * Forces conjugate to g act along the bonds, so that they balance in force and moment, and rigid motions have
+ * g = 0. The strain of a closed layer also has a g, l_a = (A^-1 Q)_aa per unit strain, Q_ac = sum w p_a p_c;
+ * as the body would bear the stress M or G (moduli) times this strain, a pair of faces has the compliance l /
+ * (M area) or l / (G area): it transmits what the intact layer did. Keeping single bonds that bear only
+ * compression would lock the crack instead: inclined ones act as struts. */
 #include "dilatation.h"
 #include "mechanics/boundary/one_sided.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Least over largest eigenvalue of A. */
+/* Least over largest eigenvalue of A below which A does not determine all directions of a jump. */
 static const double POOR = 1e-3;
 
-typedef struct { int node[2]; size_t piece, place; double w, xi[3]; } crossing;      /* node[1]: + side */
+/* A broken bond that crosses a face: its ends (node[1] on side +), the piece and the point of the faces that
+ * it crosses, its stiffness w, N/m, and its vector from side - to side +, m. */
+typedef struct { int node[2]; size_t piece, place; double w, xi[3]; } crossing;
 typedef struct {
     bond_force *b;
     const pg_face_pieces *pieces;
     const pg_cracks *cracks;
-    pg_nearest *near;                                  /* the places of the pieces */
-    size_t *piece_of;                                  /* of each place */
+    pg_nearest *near;                                  /* search among the points of the pieces */
+    size_t *piece_of;                                  /* piece of each of these points */
     crossing *list;  size_t n, room;
 } search;
 
-/* The place of a piece that the bond from xi to xj crosses; SIZE_MAX: none. Points on the face count to the
- * side that the normal shows to. *turned: 1: the bond goes against the normal. */
+/* Returns the point of the pieces' faces near which the bond from a to b crosses; SIZE_MAX: it crosses none.
+ * Ends on the face belong to the side to which the normal points. *turned: 1: the bond runs against the
+ * normal. */
 static size_t place_crossed (const search *s, const double *a, const double *b, int *turned)
 {
     size_t dim = s->pieces->dim, q = SIZE_MAX;
     double x[3] = { 0 }, away = 0;
     for (size_t k = 0; k < dim; k++) x[k] = 0.5 * (a[k] + b[k]);
-    for (int round = 0; round < 8; round++) {          /* on curved faces the place leads to the next one */
+    for (int round = 0; round < 8; round++) {          /* iterates, as faces may be curved */
         size_t found = (size_t) pg_nearest_find (s->near, x, NULL, NULL);
         const double *n = s->pieces->normal + dim * found, *y = s->pieces->x + dim * found;
         double ha = 0, hb = 0, on = PG_NO_LENGTH * s->b->problem->cloud.h;
@@ -56,7 +59,8 @@ static size_t place_crossed (const search *s, const double *a, const double *b, 
     return away <= size * size ? q : SIZE_MAX;
 }
 
-/* Dead bond e of point i, whose bonds are at hand, at a place on the faces. turned: as of place_crossed. */
+/* Lists the broken bond e of point i (of bonds `bonds`), which crosses at point `place` of the faces. turned:
+ * as in place_crossed. */
 static pg_status add_crossing (search *s, size_t i, const point_bonds *bonds, size_t e, size_t place,
                                int turned)
 {
@@ -80,7 +84,7 @@ done:
     return status;
 }
 
-/* Dead bonds of point i to later points that cross a face of a crack of the state. */
+/* Lists the broken bonds of point i to points j > i that cross a face of a crack of the state. */
 static pg_status search_point (search *s, size_t i)
 {
     pg_status status = PG_OK;
@@ -93,7 +97,7 @@ static pg_status search_point (search *s, size_t i)
         int turned = 0;
         if (j <= i || bond_force_lives (b, e)) continue;
         size_t place = place_crossed (s, x + dim * i, x + dim * j, &turned);
-        /* one that broke beside a crack belongs to no face of it, but to those that it left (add_listed) */
+        /* A bond that no crack cuts broke by itself: add_listed lists it at its own face. */
         if (place == SIZE_MAX
             || !pg_cracks_cut (s->cracks, x + dim * i, x + dim * j, pg_cloud_same (&b->problem->cloud)))
             continue;
@@ -104,7 +108,7 @@ done:
     return status;
 }
 
-/* Bonds that broke one by one, each at the place that is given for it. */
+/* Lists the bonds that broke one by one, each at the point of the faces that is given for it. */
 static pg_status add_listed (search *s)
 {
     pg_status status = PG_OK;
@@ -126,7 +130,8 @@ done:
     return status;
 }
 
-/* By pieces; within one in the order in which they were found. */
+/* Sorts the list by pieces, in a piece in the order in which bonds were found. first: where each piece
+ * begins. */
 static pg_status sort_by_piece (search *s, size_t *first)
 {
     pg_status status = PG_OK;
@@ -144,16 +149,17 @@ done:
     return status;
 }
 
-/* What the bonds of a piece amount to: A^-1; Q; mean moduli M, G, Pa; the diagonal of A, N. */
+/* Sums over the crossing bonds of a piece: A^-1, Q, mean moduli P = M, G, Pa, and the diagonal of A, N
+ * (borne). */
 typedef struct { double inverse[9], Q[9], P[2], borne[3]; } layer;
 
-/* Directions of place q: its normal, then its tangents. */
+/* Returns direction a at point q of the faces: a = 0: the normal, else a tangent. */
 static const double *direction (const pg_face_pieces *f, size_t q, size_t a)
 {
     return a ? f->tangent + ((f->dim - 1) * q + a - 1) * f->dim : f->normal + f->dim * q;
 }
 
-/* e_a and p_a of a crossing bond. */
+/* Computes e_a and p_a (m) of a crossing bond. */
 static void parts (const pg_face_pieces *f, const crossing *c, double *e, double *p)
 {
     double rr = 0;
@@ -167,7 +173,8 @@ static void parts (const pg_face_pieces *f, const crossing *c, double *e, double
     for (size_t a = 0; a < f->dim; a++) e[a] /= sqrt (rr), p[a] = across * e[a];
 }
 
-/* 0: the bonds do not tell all directions of a jump. */
+/* Sums the crossing bonds from .. to - 1 of a piece. Returns 0 if they do not determine all directions of a
+ * jump. */
 static int measure (const search *s, size_t from, size_t to, layer *l)
 {
     size_t d = s->pieces->dim;
@@ -197,8 +204,9 @@ static int measure (const search *s, size_t from, size_t to, layer *l)
     return 1;
 }
 
-/* Compliance of the pairs of a piece, and by how much its springs may be stiffer than the bonds were. Where
- * bonds broke one by one the layer bears no more than those that are dead: others may live beside them. */
+/* Computes the compliance of a piece (soft, m/N) and returns how many times stiffer than the bonds it may be.
+ * Where bonds broke one by one (known 0) the layer bears no more than the broken ones did, as others beside
+ * them may be intact. */
 static double yield (const layer *l, size_t d, double area, int known, double *soft)
 {
     double R[9] = { 0 }, T[9] = { 0 }, lambda[3];
@@ -227,7 +235,8 @@ static int compare_nodes (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* The columns of piece k; `row` has dim x n x dim zeros, and again afterwards. */
+/* Writes the columns of piece k, which give g from unknowns; row: workspace of dim x n x dim zeros, left
+ * zero. */
 static void put_columns (const search *s, size_t from, size_t to, size_t k, const layer *l, double *row,
                          int *list, pg_sparse *out)
 {
@@ -261,7 +270,7 @@ static void put_columns (const search *s, size_t from, size_t to, size_t k, cons
     }
 }
 
-/* A piece that too few bonds crossed. */
+/* Reports an error for piece k, which too few bonds crossed. */
 static pg_status refuse (const pg_face_pieces *f, size_t k)
 {
     const double *x = f->x + f->dim * f->first[k];
@@ -271,8 +280,8 @@ static pg_status refuse (const pg_face_pieces *f, size_t k)
                      "surfaces further apart", x[0], x[1], f->dim > 2 ? x[2] : 0);
 }
 
-/* How far faces are apart, to look at: by functions that reproduce linear fields on either side, from the
- * displacements of points that unknowns are whatever the force between them. */
+/* Rows for the jump of displacement across faces, for output: by functions that reproduce linear fields on
+ * either side, from the displacements of points. */
 pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                            double radius, pg_jump_rows *out)
 {
@@ -312,7 +321,7 @@ pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pie
         for (size_t q = pieces->first[k]; q < pieces->first[k + 1]; q++) area += pieces->weight[q];
         int tells = measure (&s, first[k], first[k + 1], &l), known = k < pieces->nknown;
         if (!tells && known) PG_TRY (refuse (pieces, k));
-        /* a few bonds that broke among others that live tell no jump: there is no face yet */
+        /* A few broken bonds among intact ones determine no jump: there is no face yet. */
         if (tells) *stiffer = fmax (*stiffer, yield (&l, d, area, known, soft + d * k));
         put_columns (&s, first[k], tells ? first[k + 1] : first[k], k, &l, row, list, rows);
     }

@@ -20,7 +20,7 @@ void point_bonds_at (const bond_force *b, size_t i, int thread, point_bonds *s)
 }
 
 /* ---- creation and release ------------------------------------------------------------------------------ */
-/* Frees a force of bonds, also one that was made in part only: all of it began as zeros. */
+/* Frees the force, also one that was made in part only (its struct was zero at first). */
 void bond_force_free (void **self)
 {
     bond_force *b = *self;
@@ -37,8 +37,8 @@ void bond_force_free (void **self)
     *self = NULL;
 }
 
-/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of
- * unit stretch. */
+/* Returns the critical stretch of a bond between two points of this horizon ratio: the load factor that the
+ * criterion gives for a bond of unit stretch. */
 static double limit_at (const pg_criterion *c, double ratio)
 {
     double one = 1, factor = 0;
@@ -47,8 +47,8 @@ static double limit_at (const pg_criterion *c, double ratio)
     return factor;
 }
 
-/* Limits of points by which the loop over bonds decides what breaks: energies, or critical stretches
- * unless the theory has made limits of its own. */
+/* Makes the limits of points at which bonds break: energies, or critical stretches unless the theory has made
+ * these itself. */
 static pg_status make_limits (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -64,11 +64,11 @@ done:
     return status;
 }
 
-/* A loop over bonds with the constants of the theory. limit: critical stretches, NULL: nothing breaks in
- * it. What it cannot sum the scene asks for, not the caller. */
+/* Makes a loop over bonds with the constants of the theory. limit: critical stretches, NULL: nothing breaks
+ * in it. A loop that cannot be made is a fault of the scene, not of the caller. */
 static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *sums, const double *limit)
 {
-    pg_bond_loop_setting *s = &b->setting;             /* constants: of the theory */
+    pg_bond_loop_setting *s = &b->setting;             /* the theory has filled in its constants */
     s->sums = sums, s->family = b->family, s->limit = limit, s->threads = b->threads;
     s->exempt = b->problem->bonds.exempt[PG_NODES], s->plain = b->problem->plain;
     pg_status status = pg_bond_loop_create (out, s);
@@ -78,7 +78,7 @@ static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *su
     return pg_error (PG_E_SCENE, PG_HERE, "method.evaluation: %s", why);
 }
 
-/* The order matters: constants before the loop, the loop before weighted volumes, which it sums. */
+/* Makes constants before the loop, and the loop before the weighted volumes, which it sums. */
 pg_status bond_force_make (void **self, const pg_problem *problem, const bond_theory *theory)
 {
     pg_status status = PG_OK;
@@ -112,8 +112,8 @@ done:
     return status;
 }
 
-/* K is that of small displacements: with finite stretch it needs a loop of its own, made when it is first
- * asked for. */
+/* K is the stiffness for small displacements: with finite stretch its products need a loop of their own,
+ * which is made when it is first needed. */
 pg_status bond_force_tangent_loop (bond_force *b, pg_bond_loop **out)
 {
     pg_status status = PG_OK;
@@ -130,7 +130,7 @@ done:
     return status;
 }
 
-/* Displacement, and rotation where points have some; both as lengths in the vector of unknowns. */
+/* Fields of unknowns: displacement, and rotation where points have some, as a length too. */
 size_t bond_force_fields (const void *self, size_t max, pg_field *out)
 {
     const bond_force *b = self;
@@ -140,7 +140,7 @@ size_t bond_force_fields (const void *self, size_t max, pg_field *out)
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------ */
-/* Both ends of a dead bond have rows of K that change. */
+/* Marks the columns of K of both ends of each broken bond as out of date. */
 static void mark_stale (bond_force *b, const pg_changes *changes)
 {
     for (size_t c = 0; c < changes->n; c++) {
@@ -152,7 +152,7 @@ static void mark_stale (bond_force *b, const pg_changes *changes)
     b->revision += changes->n > 0;
 }
 
-/* Alive bits are borrowed from the state; caches follow those bonds that changed, or all. */
+/* Borrows the alive mask of the state and updates the loops and K for the bonds that changed, or for all. */
 pg_status bond_force_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     bond_force *b = self;
@@ -164,8 +164,8 @@ pg_status bond_force_refresh (void *self, const pg_state *state, const pg_change
     return PG_OK;
 }
 
-/* residual = f + P (t) and the pull of springs; f already there. Ghosts have none: what acts on them is known
- * to their owner alone. */
+/* Adds loads P (t) and forces of springs to the residual, which holds the forces f of the bonds. Ghosts get
+ * 0: only their owner knows all that acts on them. */
 static void finish (bond_force *b, double t, const double *d, double *residual, double *reference)
 {
     double inside = 0;
@@ -177,7 +177,7 @@ static void finish (bond_force *b, double t, const double *d, double *residual, 
     pg_subdomain_clear_ghosts (b->problem->cloud.subdomain, (size_t) b->stride, residual);
 }
 
-/* One loop over all bonds, then the loads. */
+/* residual = forces of all bonds, loads and springs. */
 pg_status bond_force_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     pg_status status = PG_OK;
@@ -188,8 +188,8 @@ done:
     return status;
 }
 
-/* Points that die by their energy go first, so that the same loop no longer sums their bonds; stretches
- * are judged inside the loop. */
+/* Points at their limit of energy lose their bonds first, so that the loop no longer sums these; stretches
+ * are compared with their limits inside the loop. */
 pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
                                         double *reference,
                       pg_changes *broken)
@@ -209,7 +209,7 @@ done:
     return status;
 }
 
-/* Loads alone, without supports. */
+/* Writes the loads at t, N, without supports. */
 pg_status bond_force_loads (void *self, double t, double *P)
 {
     bond_force *b = self;
@@ -219,7 +219,8 @@ pg_status bond_force_loads (void *self, double t, double *P)
     return PG_OK;
 }
 
-/* Of a bare problem, whose only load is a traction on the whole surface. */
+/* Nodal forces P, N, of the tractions of a uniform stress, for a problem (the patch test) whose only load is
+ * a traction on the whole surface. */
 pg_status bond_force_surface (void *self, const double *stress, double *P)
 {
     bond_force *b = self;
@@ -227,15 +228,15 @@ pg_status bond_force_surface (void *self, const double *stress, double *P)
 }
 
 /* ---- the rest ------------------------------------------------------------------------------------------ */
-/* Lumped: density times volume; a rotation has the moment of inertia of a cube of the local spacing, in
- * the unit of its unknown. */
+/* Lumped masses, kg: density times volume; of rotations the moment of inertia of a cube of the local spacing,
+ * over length^2, as the unknown is length times the angle. */
 void bond_force_masses (const bond_force *b, double *mass)
 {
     const pg_problem *p = b->problem;
     for (size_t i = 0; i < b->n; i++) {
         double own = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i], across = 0;
         if (b->length > 0) across = pg_problem_spacing (p, PG_NODES, i) / b->length;
-        for (size_t k = 0; k < (size_t) b->stride; k++)  /* a cube of the spacing's size turns: theory G4 */
+        for (size_t k = 0; k < (size_t) b->stride; k++)  /* moment of inertia of a cube: theory G4 */
             mass[i * (size_t) b->stride + k] = k < (size_t) b->dim ? own : own * across * across / 6;
     }
 }
@@ -247,8 +248,8 @@ pg_status bond_force_mass (void *self, double *mass, const pg_sparse **consisten
     return PG_OK;
 }
 
-/* Energy stored by the bonds, J: of a rank by the densities of its own points, so that the ranks together
- * count all of it once. */
+/* Energy stored by the bonds, J. Where ranks share the body, each sums the energy of its own points, so that
+ * together they count all of it once. */
 static pg_status stored_energy (bond_force *b, const double *d, double *energy)
 {
     pg_status status = PG_OK;
@@ -267,9 +268,8 @@ done:
     return status;
 }
 
-/* Strain energy -1/2 f . d of forces that are linear in d, from the residual f + P; the loads P are the pairs
- * of `out` behind those of the supports, springs the last of them. Summed in eight lanes, which serve vector
- * instructions. */
+/* Strain energy -1/2 f . d, J, of forces that are linear in d, from the residual f + P. The loads P are those
+ * pairs of force and displacement in `out` that follow the pairs of supports; springs come last. */
 PG_WIDEST static double strain_of (const bond_force *b, const double *d, const double *residual,
                                    const pg_work_balance *out)
 {
@@ -284,13 +284,13 @@ PG_WIDEST static double strain_of (const bond_force *b, const double *d, const d
     for (size_t k = 0; k < b->boundary.nspring; k++)
         sum += out->force[springs + k] * d[b->boundary.spring[k].dof];
     for (size_t k = 0; k < 8; k++) sum -= lane[k];
-    /* the share of a rank may be negative, the whole is not */
+    /* The part of one rank may be negative, the sum over all ranks is not. */
     return b->problem->cloud.subdomain ? 0.5 * sum : fmax (0.5 * sum, 0);
 }
 
-/* Reactions are what the residual leaves at prescribed unknowns, which are the only entries of residual and
- * inertia that matter to the boundary; inertia is part of it in motion. Where forces are linear the energy
- * follows from a residual that is known. */
+/* Fills in the work balance. Reactions are the residual at prescribed unknowns, in dynamics with the inertia
+ * there; other entries of residual and inertia are not read for them. If forces are linear in d, the strain
+ * energy follows from a residual that is known. */
 pg_status bond_force_work (void *self, double t, const double *d, const pg_known *known, pg_work_balance *out)
 {
     pg_status status = PG_OK;
@@ -315,7 +315,7 @@ unsigned long bond_force_revision (const void *self) { return ((const bond_force
 const pg_operator *bond_force_operator (void *self) { return &((bond_force *) self)->op; }
 const pg_sparse *bond_force_basis (void *self) { return boundary_basis (&((bond_force *) self)->boundary); }
 
-/* Prescribed unknowns take their values at t. */
+/* Sets prescribed unknowns of d to their values at t. */
 pg_status bond_force_impose (void *self, double t, double *d)
 {
     boundary_impose (&((bond_force *) self)->boundary, t, d);

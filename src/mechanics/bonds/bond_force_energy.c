@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points that die by their energy (theory B2): at or over its limit a point loses all its bonds, for good.
- * Bits of bonds are the only memory: a dead point stores nothing and has none left to lose. The energy that
- * decides is always the plain sum over the point's own bonds: it does not depend on how sums are evaluated,
- * and neither on which points are looked at (pairwise_tiles.c leaves out those that cannot have reached their
- * limit). */
+ * Points that lose all their bonds for good ("die") when their energy reaches its limit (theory B2). The
+ * alive mask of the bonds is the only memory: a dead point has neither energy nor bonds. The energy that
+ * decides is always the plain sum over the point's own bonds: it does not depend on how forces are summed,
+ * nor on which points are checked (pairwise_tiles.c leaves out those that cannot have reached their limit).
+ * */
 #include "bond_force.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The energy density at which a point like this one dies: the criterion's own answer for one of 1 J/m^3. */
+/* Returns the energy density (J/m^3) at which a point of this horizon ratio dies, from its utilisation at 1
+ * J/m^3. */
 static double limit_at (const pg_criterion *c, double ratio)
 {
     double one = 1, u = 0;
@@ -18,7 +19,7 @@ static double limit_at (const pg_criterion *c, double ratio)
     return u > 0 ? 1 / (u * u) : INFINITY;
 }
 
-/* Limits of energy, where the criterion is one; points of excluded sets never die. */
+/* Makes the limits of energy, if the criterion needs energies; points of excluded sets never die. */
 pg_status bond_force_energy_create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -43,7 +44,7 @@ void bond_force_energy_free (bond_force *b)
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------ */
-/* Entry of the bond from j back to i: families are sorted by node, so that bisection finds it. */
+/* Returns the entry of the bond from j to i: families are sorted by node, so that bisection finds it. */
 static size_t back_of (const pg_family *f, size_t i, size_t j)
 {
     size_t low = f->start[j], high = f->start[j + 1];
@@ -55,7 +56,7 @@ static size_t back_of (const pg_family *f, size_t i, size_t j)
     return low;
 }
 
-/* Both directions of the live bonds of dying points. */
+/* Appends the intact bonds of dying points, both directions, ascending. */
 static pg_status collect (const bond_force *b, pg_changes *out)
 {
     pg_status status = PG_OK;
@@ -95,7 +96,8 @@ done:
 typedef struct { const bond_force *b; const unsigned char *alive; double *utilisation,
                  *factor; char *kind; } judging;
 
-/* Utilisation grows with the root of the energy, as stretches do; of both ends the worse decides. */
+/* Utilisation of the bonds of points first .. last - 1: the larger one of their two ends, sqrt (W / limit).
+ * */
 static void spread_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
@@ -111,14 +113,14 @@ static void spread_points (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* The largest over the bonds of a point is that of the point itself. */
+/* Fills b->node.density with the utilisation of points, then spreads it to their bonds. */
 pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, const double *d,
                                          double *utilisation,
                                    char *kind, double *factor)
 {
     pg_status status = PG_OK;
     judging s = { b, state->alive, utilisation, factor, kind };
-    PG_TRY (bond_force_energy_create (b));  /* a plan asks of a problem whose criterion comes later */
+    PG_TRY (bond_force_energy_create (b));  /* in a plan the criterion may be set after the force is made */
     PG_TRY (pg_bond_loop_energies (b->loop, d, b->node.density));
     for (size_t i = 0; i < b->n; i++)
         b->node.density[i] = sqrt (fmax (0, b->node.density[i] / b->node.critical[i]));

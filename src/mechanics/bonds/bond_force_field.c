@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What bonds show: how far each is to its limit; at points damage (share of the family's partial volume that
- * is lost), strain (linear fit of the displacements over live bonds), stress (virial of their forces, 1/2 sum
- * f x xi V_j); displacement and stress at any place; overlap of broken bonds; fragments. */
+ * Results of bonds: utilisation of each; at points damage (share of the family's partial volume that is
+ * lost), strain (linear fit of the displacements over intact bonds), stress (virial of their forces, 1/2 sum
+ * f x xi V_j); displacement and stress at any position; overlap of broken bonds; fragments. */
 #include "dilatation.h"
 #include <math.h>
 #include <string.h>
@@ -22,8 +22,8 @@ typedef struct {
     int material[BATCH];
 } batch;
 
-/* What bonds show against a law, into the results of the bonds `entry`: of two laws that judge one bond
- * the larger utilisation and the smaller load factor decide. */
+/* Evaluates a criterion for the measures of bonds `entry`. If a bond has two criteria (of its two ends), the
+ * larger utilisation and the smaller load factor are kept. */
 static void take_worse (const judging *s, const pg_criterion *c, const pg_bond_measures *m,
                         const size_t *entry)
 {
@@ -40,8 +40,8 @@ static void take_worse (const judging *s, const pg_criterion *c, const pg_bond_m
         if (!(out[k] > s->factor[entry[k]])) s->factor[entry[k]] = out[k];
 }
 
-/* Judges the bonds of a batch whose law is that of the material, copied together, at once: criteria take
- * arrays, so that their own loops are long. */
+/* Evaluates the limits of one material for the bonds of a batch that have it, copied together: criteria take
+ * arrays, so that their loops are long. */
 static void judge_by (const judging *s, const batch *all, int material)
 {
     const pg_problem *p = s->b->problem;
@@ -60,18 +60,18 @@ static void judge_by (const judging *s, const batch *all, int material)
     if (n) take_worse (s, &p->at.limit[material], &m, some);
 }
 
-/* Judges a full batch, or what is left of it, by the laws that it holds, and empties it. */
+/* Evaluates a batch of bonds by the limits of all materials in it, and empties it. */
 static void judge (const judging *s, batch *all)
 {
     for (size_t k = 0; k < all->n; k++) {
         size_t before = 0;
         while (all->material[before] != all->material[k]) before++;
-        if (before == k) judge_by (s, all, all->material[k]);      /* each law once */
+        if (before == k) judge_by (s, all, all->material[k]);      /* each material once */
     }
     all->n = 0;
 }
 
-/* Adds what bond e of point i shows at the displacement at hand to the batch; a full batch is judged. */
+/* Adds the measures of bond e of point i at displacement d to the batch; a full batch is evaluated. */
 static void add (const judging *s, batch *all, size_t i, const point_bonds *bonds, size_t e, int material,
                  double ratio)
 {
@@ -87,9 +87,9 @@ static void add (const judging *s, batch *all, size_t i, const point_bonds *bond
     if (all->n == BATCH) judge (s, all);
 }
 
-/* Live bonds of a range of points. A bond of two materials is put into the batch twice, once for the law
- * of either end; limits of stretch go by the spacing at each end in graded clouds, and the weaker end
- * decides. */
+/* Evaluates the intact bonds of points first .. last - 1. A bond between two materials is put into the batch
+ * twice, for the limits of either end; in graded clouds limits of stretch depend on the spacing at each end.
+ * The weaker end decides. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
@@ -116,7 +116,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     judge (s, &all);
 }
 
-/* What the bonds of a group break of. */
+/* Writes the mode by which each bond of a group breaks (pg_criterion_type.utilisation). */
 static void tell_kinds (const bond_force *b, const double *d, const pg_bond_group *group, char *kind)
 {
     char usual = b->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
@@ -136,7 +136,7 @@ typedef struct {
     size_t components;
 } painting;
 
-/* One field at a range of points. */
+/* Computes a field at the points first .. last - 1. */
 static void paint_points (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
@@ -147,7 +147,7 @@ static void paint_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Share of the partial volumes of the family of point i whose bonds are dead. beta: workspace. */
+/* Damage of point i: share of the partial volumes of its family whose bonds are broken. beta: workspace. */
 static double damage_at (const bond_force *b, const unsigned char *alive, size_t i, double *beta)
 {
     const pg_family *f = b->family;
@@ -161,8 +161,8 @@ static double damage_at (const bond_force *b, const unsigned char *alive, size_t
     return all > 0 ? dead / all : 0;
 }
 
-/* Most points have all their bonds, which one look at the bits of many points shows; histories ask for this
- * at every row. */
+/* Damage of the points first .. last - 1. It is computed for every row of history.csv: most points have all
+ * their bonds, so that the alive mask is checked for AT_ONCE points at a time first. */
 static void paint_damage (void *context, size_t first, size_t last, int thread)
 {
     enum { AT_ONCE = 128 };
@@ -179,9 +179,9 @@ static void paint_damage (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* H[c * dim + k] = du_c/dx_k from the live bonds by least squares, weighted by partial volumes: H sum w
- * xi xi = sum w eta xi. 0 where the live bonds do not spread in all directions (smallest eigenvalue of
- * sum w xi xi below 1e-3 h^2 sum w), as nothing is known there. */
+/* Displacement gradient at point i, H[c * dim + k] = du_c/dx_k, from the intact bonds by least squares,
+ * weighted by partial volumes: H sum w xi xi = sum w eta xi. 0 where these bonds do not span all directions
+ * (smallest eigenvalue of sum w xi xi below 1e-3 h^2 sum w), as the gradient is not determined there. */
 static void gradient_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                          const point_bonds *s, double *H)
 {
@@ -205,8 +205,8 @@ static void gradient_at (const bond_force *b, const unsigned char *alive, const 
     for (size_t a = 0; a < dim; a++) pg_dense_solve (b->dim, M, H + a * dim);
 }
 
-/* In Voigt order with engineering shears (xx yy zz xy yz zx), from the gradient that fits the
- * displacements of live bonds. */
+/* Strain at point i, Voigt order with engineering shears (xx yy zz xy yz zx), from the displacement gradient
+ * that fits the intact bonds. */
 static void strain_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -218,8 +218,8 @@ static void strain_at (const bond_force *b, const unsigned char *alive, const do
         out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
 }
 
-/* In Voigt order, Pa: the symmetric part of the virial of the bonds' forces. What is not symmetric is
- * borne by couples (micropolar bonds). */
+/* Stress at point i, Voigt order, Pa: the symmetric part of the virial of the bonds' forces. The other part
+ * is borne by couples (micropolar bonds). */
 static void stress_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -246,7 +246,7 @@ static void take_parts (const bond_force *b, const double *d, int first, int cou
             value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
 }
 
-/* Fields that are parts of the unknowns, or of the velocity: 1 when `name` is one of them. */
+/* Writes the field `name` if it is a part of the unknowns or of the velocity; returns 0 if it is not. */
 static int take_unknowns (const bond_force *b, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value)
 {
@@ -290,17 +290,17 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
     return PG_OK;
 }
 
-/* ---- at any place -------------------------------------------------------------------------------------- */
-/* A search among points, made when a place is first asked for. */
+/* ---- at any position ----------------------------------------------------------------------------------- */
+/* Makes the search among points, when it is first needed. */
 static pg_status make_near (bond_force *b)
 {
     return b->near ? PG_OK : pg_nearest_create (&b->near, b->dim, b->n, b->problem->cloud.x);
 }
 
-/* Which points a place does not see: those behind a crack. */
+/* Data of `hidden`: the cracks behind which points are hidden from a position. */
 typedef struct { const pg_problem *problem; const pg_cracks *cracks; } view;
 
-/* Refuses points that a crack hides from the place (pg_refuse): displacements jump there. */
+/* Is a crack between the position and the point (pg_refuse)? Displacements jump across it. */
 static int hidden (void *context, const double *place, size_t point)
 {
     const view *v = context;
@@ -309,8 +309,8 @@ static int hidden (void *context, const double *place, size_t point)
                           pg_cloud_same (&p->cloud)) != NULL;
 }
 
-/* The nearest points on the same side of the cracks, in the mean of which a place is; where cracks hide all
- * points, the nearest ones of all. */
+/* Lists the nearest points to x on the same side of all cracks (equally near ones all); if cracks hide all
+ * points, the nearest of all. Returns how many. */
 static size_t points_about (bond_force *b, const pg_state *state, const double *x, size_t *point)
 {
     view v = { b->problem, pg_state_cracks (b->problem, state) };
@@ -318,8 +318,8 @@ static size_t points_about (bond_force *b, const pg_state *state, const double *
     return pg_nearest_seen (b->near, x, same, v.cracks->n ? hidden : NULL, &v, point);
 }
 
-/* Adds a share of the displacement at place x by a first-order expansion about point i, and of the gradient
- * there (H: 9 numbers, dim x dim used). */
+/* Adds a share of the displacement at x, m, by a first-order expansion about point i, and of the displacement
+ * gradient of point i (H: 9 numbers, dim x dim used). */
 static void expand (bond_force *b, const pg_state *state, const double *d, const double *x, size_t i,
                     double share, point_bonds *s, double *u, double *H)
 {
@@ -336,7 +336,8 @@ static void expand (bond_force *b, const pg_state *state, const double *d, const
     }
 }
 
-/* Adds a share of the stress at point i. 2D: that across the plane is as the mode has it. */
+/* Adds a share of the stress at point i, Pa (out: 6). 2D: the stress across the plane follows from the
+ * mode. */
 static void add_stress (bond_force *b, const pg_state *state, const double *d, size_t i, double share,
                         point_bonds *s, double *out)
 {
@@ -376,9 +377,9 @@ done:
 /* ---- broken bonds -------------------------------------------------------------------------------------- */
 typedef struct { bond_force *b; const pg_state *state; const double *d; double *worst; } closing;
 
-/* How far the ends of short dead bonds of a range of points have come towards each other beyond the
- * shortening of the material about them, the largest of each point, m. Points with all their bonds are
- * passed over at a glance. */
+/* Overlap of the points first .. last - 1, m: by how much the ends of a short broken bond have approached
+ * each other beyond the shortening of the material around, the largest of each point. Points with all their
+ * bonds are skipped. */
 static void closing_points (void *context, size_t first, size_t last, int thread)
 {
     const closing *w = context;
@@ -408,7 +409,7 @@ static void closing_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* The largest over points; ranks: over those that are owned. */
+/* Returns the largest overlap, m, over the points that this rank owns. */
 static double largest_overlap (bond_force *b, const pg_state *state, const double *d)
 {
     closing w = { b, state, d, b->work };
@@ -419,7 +420,7 @@ static double largest_overlap (bond_force *b, const pg_state *state, const doubl
     return worst;
 }
 
-/* Of every bond; criteria of energies are asked for points instead. */
+/* Evaluates the criterion for every bond; criteria of energies are evaluated for points. */
 pg_status bond_force_judge (void *self, const pg_state *state, const double *d, const pg_judging *w)
 {
     pg_status status = PG_OK;
@@ -440,7 +441,8 @@ done:
     return status;
 }
 
-/* Joins point i with those before it that live bonds hold it to. Most of them lead to its root at once. */
+/* Joins point i with the points j < i to which intact bonds connect it. Most of these have its root
+ * already. */
 static void join_before (const bond_force *b, size_t i, int *parent)
 {
     const pg_cloud *cloud = &b->problem->cloud;
@@ -454,7 +456,7 @@ static void join_before (const bond_force *b, size_t i, int *parent)
     }
 }
 
-/* Union of the ends of live bonds. */
+/* Joins the ends of all intact bonds (union-find). */
 void bond_force_join (void *self, int *parent)
 {
     bond_force *b = self;
@@ -462,8 +464,8 @@ void bond_force_join (void *self, int *parent)
     for (size_t i = 0; i < b->n; i++) join_before (b, i, parent);
 }
 
-/* Parts of the body that live bonds hold together: points alone, and parts of
- * several points beside the largest one. */
+/* Counts the parts of the body that intact bonds hold together: single points, and parts of several points
+ * but for the body itself. */
 pg_status bond_force_census (void *self, pg_census *out)
 {
     pg_status status = PG_OK;
@@ -475,7 +477,7 @@ pg_status bond_force_census (void *self, pg_census *out)
     bond_force_join (b, parent);
     PG_TRY (pg_subdomain_count (b->problem->cloud.subdomain, b->n, parent, parts));
     out->isolated = (size_t) parts[0], out->fragments = (size_t) parts[1];
-    if (out->fragments) --out->fragments;              /* the body itself is none */
+    if (out->fragments) --out->fragments;              /* the body itself is not a fragment */
 done:
     pg_free (parent);
     return status;

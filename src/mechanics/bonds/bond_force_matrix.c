@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over live
- * bonds, as a product by the loop over bonds, as a sparse matrix whose columns are made again when a bond
- * of their point breaks, its diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i,
+ * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over intact
+ * bonds: products K x by the loop over bonds, a sparse matrix whose columns are recomputed when a bond of
+ * their point breaks, diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i,
  * P_i = sum_j kappa xi x xi / V_i (theory A4). */
 #include "dilatation.h"
 #include <math.h>
@@ -9,8 +9,8 @@
 #include <string.h>
 
 typedef struct { double *y; int failed; } negation;
-/* y = -y over a range, or not a number where the forces could not be had, so that nobody goes on with
- * them. */
+/* y = -y for unknowns first .. last - 1, or NaN if the forces could not be computed, so that an error is
+ * noticed. */
 static void negate (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -20,8 +20,8 @@ static void negate (void *context, size_t first, size_t last, int thread)
     else for (size_t i = first; i < last; i++) y[i] = -y[i];
 }
 
-/* K x = - forces at displacement x. A loop does not fail without breaking; making that of finite stretch
- * may: then K x is not a number. */
+/* y = K x = - forces at displacement x, plus springs; NaN if the loop with the linear stretch cannot be
+ * made. */
 void bond_force_apply (void *context, const double *x, double *y)
 {
     bond_force *b = context;
@@ -34,17 +34,17 @@ void bond_force_apply (void *context, const double *x, double *y)
     boundary_hold (&b->boundary, x, y);
 }
 
-enum { MOST = 36 };                                    /* numbers of a block */
+enum { MOST = 36 };                                    /* most numbers of a block (6 x 6) */
 
-/* Springs of a point belong to its own block. */
+/* Adds the springs of point i, N/m, to the diagonal of its own block D. */
 static void add_springs (const bond_force *b, size_t i, double *D)
 {
     size_t m = (size_t) b->stride;
     for (size_t k = 0; b->boundary.hold && k < m; k++) D[k * m + k] += b->boundary.hold[i * m + k];
 }
 
-/* Sum of the bonds' own blocks over the live bonds of a point (all: over all that count at the start).
- * exact: of bonds alone, without the pull that stands for a dilatation beside beams. */
+/* Diagonal block D of point i: sum of `own` over its intact bonds (all: over all bonds that no pre-crack
+ * cuts), and springs. exact: without the pair force that replaces a dilatation beside micropolar bonds. */
 static void own_block (const bond_force *b, size_t i, const point_bonds *s, int all, int exact, double *D)
 {
     size_t bb = (size_t) (b->stride * b->stride);
@@ -61,8 +61,8 @@ static void own_block (const bond_force *b, size_t i, const point_bonds *s, int 
 }
 
 /* ---- rows of points that have all their bonds ---------------------------------------------------------- */
-/* Row of blocks of a point over its live bonds (all: over all), block after block in `value`, its own
- * last; nodes in `node` unless NULL. Returns their number. */
+/* Writes the row of blocks of point i over its intact bonds (all: over all bonds), its own block last, to
+ * `value`, and their nodes to `node` unless NULL. Returns the number of blocks. */
 static size_t row_of_bonds (const bond_force *b, size_t i, const point_bonds *s, int all, int *node,
                            double *value)
 {
@@ -84,9 +84,9 @@ static size_t row_of_bonds (const bond_force *b, size_t i, const point_bonds *s,
 static size_t family_size (const bond_force *b,
                            size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
 
-/* On a lattice without shares of volume, factors of surfaces or several moduli the row of K of a point
- * with all its bonds is the same everywhere: it is made once. Where there is no memory for it every row
- * is made by itself. */
+/* On a lattice with equal volumes, one modulus and no surface correction the row of K of a point with all its
+ * bonds is the same everywhere: it is computed once (b->whole). Without memory for it every row is computed
+ * by itself. */
 static void find_whole (bond_force *b)
 {
     const pg_sums *sums = b->problem->sums;
@@ -103,7 +103,8 @@ static void find_whole (bond_force *b)
     if (b->whole) row_of_bonds (b, i, &s, 1, NULL, b->whole);
 }
 
-/* Had the point all its bonds at the start, and holds no spring it, so that the shared row was its own? */
+/* Does point i have a full family and no spring, so that the shared row is its row as long as no bond
+ * breaks? */
 static int was_whole (const bond_force *b, size_t i)
 {
     for (size_t k = 0; b->boundary.hold && k < (size_t) b->stride; k++)
@@ -111,7 +112,7 @@ static int was_whole (const bond_force *b, size_t i)
     return b->whole && family_size (b, i) == b->problem->sums->stencil.n;
 }
 
-/* Has it all of them now? */
+/* Is the shared row that of point i now: full family, no spring, no broken bond? */
 static int is_whole (const bond_force *b, size_t i)
 {
     return was_whole (b, i) && !(b->alive && memchr (b->alive + b->family->start[i], 0, family_size (b, i)));
@@ -122,8 +123,9 @@ static int has_shared_row (void *context, size_t i) { return is_whole (context, 
 
 typedef struct { const bond_force *b; double *out; const double *mass; } job;
 
-/* The own block of state-based theory: what the dilatations add (of the point and of its neighbours), and
- * the beams beside them, exactly; rows of other blocks would need neighbours of neighbours. */
+/* Exact diagonal block of K with dilatations: the share of the dilatations of the point and of its
+ * neighbours, and the micropolar bonds beside them. (Exact other blocks would need neighbours of
+ * neighbours.) */
 static void exact_block (const bond_force *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
@@ -136,7 +138,7 @@ static void exact_block (const bond_force *b, size_t i, const point_bonds *s, do
         for (size_t c = 0; c < dim; c++) D[a * m + c] += state[a * dim + c];
 }
 
-/* Diagonals of the own blocks of a range of points: from the shared row, else summed. */
+/* Diagonal of K at points first .. last - 1: from the shared row, else summed. */
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -155,7 +157,7 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
     }
 }
 
-/* Kept until bonds change. */
+/* Copies the diagonal of K, N/m, which is kept until bonds change. */
 void bond_force_diagonal (void *context, double *d)
 {
     bond_force *b = context;
@@ -170,15 +172,15 @@ void bond_force_diagonal (void *context, double *d)
     memcpy (d, b->diagonal, ndof * sizeof *d);
 }
 
-/* Adds the sums of |entries| over each row of a block. */
+/* Adds the sums of the absolute entries of each row of an m x m block. */
 static void add_sizes (size_t m, const double *block, double *sum)
 {
     for (size_t a = 0; a < m; a++)
         for (size_t c = 0; c < m; c++) sum[a] += fabs (block[a * m + c]);
 }
 
-/* Sums of |entries| over the rows of a range of points, N/m: by Gershgorin no eigenvalue of K is larger
- * than the largest of them. */
+/* Sums of absolute entries over the rows of points first .. last - 1, N/m: by Gershgorin no eigenvalue of K
+ * is larger than the largest of these sums. */
 static void row_sum_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -198,7 +200,7 @@ static void row_sum_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* With dilatations: of bonds alone that are at least as stiff, so that the bound holds. */
+/* With dilatations the sums are those of pair forces that are at least as stiff, so that the bound holds. */
 pg_status bond_force_row_sums (void *self, double *sum)
 {
     bond_force *b = self;
@@ -208,7 +210,7 @@ pg_status bond_force_row_sums (void *self, double *sum)
     return PG_OK;
 }
 
-/* Row of blocks of a point over live bonds, its own block last. */
+/* pg_couplings.row: blocks of point i over its intact bonds, its own block last; value NULL: only nodes. */
 static size_t couplings_of (void *context, size_t i, int thread, int *node, double *value)
 {
     const bond_force *b = context;
@@ -231,7 +233,7 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
     return row_of_bonds (b, i, &s, 0, node, value);
 }
 
-/* The longest component of any bond of a point, m. */
+/* Largest component of the bond vectors of each of the points first .. last - 1, m. */
 static void farthest_points (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -249,7 +251,7 @@ static void farthest_points (void *context, size_t first, size_t last, int threa
     }
 }
 
-/* Rows of K for preconditioners; with dilatations their replacement within the bonds' reach. */
+/* Gives rows of K to preconditioners; with dilatations approximate ones that reach no further than bonds. */
 pg_status bond_force_couplings (void *self, pg_couplings *out)
 {
     bond_force *b = self;
@@ -272,8 +274,8 @@ done:
     return status;
 }
 
-/* Largest eigenvalue of M^-1/2 P M^-1/2 of a point, in units of its mass. The last one is kept: points in a
- * row are mostly alike, to the bit. */
+/* Largest eigenvalue of M^-1/2 P M^-1/2 of a point times its mass, N/m. The last result is kept, as
+ * consecutive points mostly have the same block, to the bit. */
 typedef struct { double block[MOST], mass[6], top; } last_block;
 static double top_of (const bond_force *b, const double *mass, const double *block, last_block *last)
 {
@@ -289,8 +291,8 @@ static double top_of (const bond_force *b, const double *mass, const double *blo
     return last->top = lambda[0];
 }
 
-/* Of every bond d.K d <= 2 (d_i.own d_i + d_j.own d_j), for none has negative energy: M^-1/2 D M^-1/2 of
- * every point alone */
+/* Bounds of omega^2 at points first .. last - 1, 1/s^2. For each bond d.K d <= 2 (d_i.own d_i + d_j.own d_j),
+ * as its energy is not negative: twice the largest eigenvalue of M^-1/2 D M^-1/2 of each point alone. */
 static void bound_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -305,7 +307,7 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
         if (!shared) point_bonds_at (w->b, i, thread, &s);
         int grows = w->b->dilatation && p->sums->rule.follow && (w->b->limit || w->b->node.critical);
         double state = grows ? dilatation_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
-        double hold = 0;                               /* springs, where no own block has them */
+        double hold = 0;                               /* springs that no diagonal block includes, 1/s^2 */
         for (size_t k = 0; grows && !w->b->theory->alone && w->b->boundary.hold && k < m; k++)
             hold = fmax (hold, w->b->boundary.hold[i * m + k] / mass[0]);
         state += 2 * hold;
@@ -317,9 +319,9 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* In closed form from the intact body: breaking bonds never raises it, but where weighted volumes follow. Of
- * a rank that of its own points: ghosts at the rim lack bonds, which would make the bound that of a body with
- * more corners. */
+/* Upper bound of the largest angular frequency, 1/s, from the intact body: breaking bonds does not raise it,
+ * except where weighted volumes follow the intact bonds, which dilatation_bound allows for. Each rank takes
+ * its own points only, as ghosts may lack bonds. */
 pg_status bond_force_omega (const bond_force *b, double *omega)
 {
     pg_status status = PG_OK;
@@ -347,7 +349,7 @@ pg_status bond_force_bound (void *self, double *omega)
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
-/* How many bonds of point i lead to points before it: the upper triangle by columns needs these. */
+/* Counts the bonds of point i to points j < i, which are in its columns of the upper triangle. */
 static size_t lower (const bond_force *b, size_t i)
 {
     size_t at = b->family->start[i], first = at;
@@ -355,8 +357,8 @@ static size_t lower (const bond_force *b, size_t i)
     return at - first;
 }
 
-/* The pattern of the upper triangle, column by column: every bond once, dead ones included, since they
- * may have lived when the matrix was first made. */
+/* Makes the pattern of the upper triangle, column by column: every bond once, broken ones too, so that the
+ * pattern stays the same. */
 static pg_status create_matrix (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -380,7 +382,7 @@ done:
     return status;
 }
 
-/* Values of the columns of a range of points that have become stale; dead bonds leave zeros, so that the
+/* Computes the columns that are out of date of points first .. last - 1; broken bonds become zeros, as the
  * pattern stays. */
 static void make_columns (void *context, size_t first, size_t last, int thread)
 {
@@ -394,7 +396,7 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
         point_bonds_at (b, i, thread, &s);
         own_block (b, i, &s, 0, 0, D);
         size_t below = lower (b, i);
-        /* the block of row i, column node: its transpose stands above */
+        /* `other` is the block in row i, column j; its transpose goes to column i, row j < i. */
         for (size_t e = 0; e < below; e++) {
             memset (other, 0, sizeof other);
             if (bond_force_lives (b, s.first + e)) b->theory->blocks (b, i, &s, e, own, other);
@@ -408,7 +410,7 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Only columns of points that lost a bond are made again. */
+/* Assembles K; only columns of points that lost a bond are computed again. */
 static pg_status assemble (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -421,7 +423,7 @@ done:
     return status;
 }
 
-/* None where dilatations reach further than bonds do. */
+/* pg_force_type.matrix: with dilatations, which couple neighbours of neighbours, there is none (*K NULL). */
 pg_status bond_force_matrix (void *self, pg_matrix_want want, const pg_sparse **K)
 {
     pg_status status = PG_OK;

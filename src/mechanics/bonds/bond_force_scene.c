@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Forces between points as a scene asks for them: keys, how bonds are summed (theory A1 to A3), checks. */
+ * Reading of forces between points from the scene: keys, how bonds are summed (theory A1 to A3), checks. */
 #include "bond_force_scene.h"
 #include <math.h>
 #include <string.h>
@@ -47,7 +47,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 }
 
 /* ---- rule ---------------------------------------------------------------------------------------------- */
-/* Sums of forces that such a run asks for, about */
+/* Returns about how many sums of forces the run will need, for the choice of transforms. */
 static double evaluations_of (const pg_scene *scene)
 {
     if (pg_scene_has (scene, "solver.time_steps"))
@@ -56,15 +56,16 @@ static double evaluations_of (const pg_scene *scene)
     return 1000;
 }
 
-/* What the scene leaves open follows from points and kernel: overlaps of cells need a lattice, and
- * corrections of surfaces do harm below a horizon of four spacings. */
+/* Values "auto" are chosen by points and kernel: overlaps of cells need a lattice, and surface corrections
+ * increase the error below a horizon of four spacings. */
 void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                        double spacing, int lattice)
 {
     static const char partial[] = "method.partial_volume", surface[] = "method.surface_correction",
                       evaluation[] = "method.evaluation";
     *rule = (pg_sum_rule) { .mode = mode, .kernel = approx->kernel, .horizon = approx->horizon };
-    /* whole cells are the more isotropic then (theory A2: quadratic, m = 3) */
+    /* with a kernel that vanishes at the horizon whole cells are more isotropic (theory A2: quadratic, m =
+     * 3) */
     int fading = !approx->kernel->closed && mode != PG_SOLID;
     rule->partial = is (scene, partial, "none")      ? PG_PARTIAL_NONE
                     : is (scene, partial, "linear")  ? PG_PARTIAL_LINEAR
@@ -86,8 +87,8 @@ void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, co
     rule->evaluations = evaluations_of (scene);
 }
 
-/* Does the scene ask for a criterion that judges tips? Its cracks are then the same whether they were there
- * before or have grown. */
+/* Does the scene have a criterion of crack tips? Weighted volumes then follow intact bonds by default, so
+ * that cracks that have grown act as pre-cracks do. */
 static int grows_by_facets (const pg_scene *scene)
 {
     const pg_criterion_type *c = pg_scene_given (scene, "failure")
@@ -95,7 +96,7 @@ static int grows_by_facets (const pg_scene *scene)
     return c && (c->needs & PG_NEEDS_FACETS);
 }
 
-/* Weighted volumes are those of the bonds at the start, or follow what lives. */
+/* Weighted volumes count the bonds of the start, or (rule->follow) those that are intact. */
 void bond_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene)
 {
     static const char key[] = "method.weighted_volume";
@@ -114,7 +115,7 @@ void bond_force_refuse_matrix (const pg_problem *p, const pg_scene *scene, const
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* Do the points lie on the sites of a lattice, which stencils and transforms need?. */
+/* Do the points lie on the sites of a lattice, which stencils and transforms need? */
 static pg_status on_lattice (const pg_problem *p, int *yes)
 {
     pg_sites sites = { 0 };
@@ -124,7 +125,7 @@ static pg_status on_lattice (const pg_problem *p, int *yes)
     return status;
 }
 
-/* Faults of the scene are collected before any sum is made. */
+/* Reports all faults of the scene together before the sums (p->sums) are made. */
 pg_status bond_force_read (pg_problem *p, const pg_scene *scene, bond_force_check check)
 {
     pg_status status = PG_OK;
@@ -139,7 +140,7 @@ pg_status bond_force_read (pg_problem *p, const pg_scene *scene, bond_force_chec
         pg_scene_fault (
             scene, "method.partial_volume",
             "overlap needs the cells of a lattice, and these points lie on none: use linear or none");
-    /* one weight for all bonds of an offset */
+    /* stencils and transforms have one weight for all bonds of an offset */
     int alike = rule.evaluation == PG_EVALUATE_STENCIL || rule.evaluation == PG_EVALUATE_FFT;
     if (!lattice && alike)
         pg_scene_fault (scene, "method.evaluation",
@@ -156,7 +157,7 @@ pg_status bond_force_read (pg_problem *p, const pg_scene *scene, bond_force_chec
     PG_TRY (pg_scene_verdict (scene));
     rule.threads = p->threads;
     status = pg_sums_create (&p->sums, &rule, &p->cloud, p->lattice.dim ? &p->lattice : NULL);
-    if (status == PG_E_USAGE) {  /* these points, this horizon: the scene's, not the caller's */
+    if (status == PG_E_USAGE) {  /* points or horizon do not fit: a fault of the scene, not of the caller */
         snprintf (why, sizeof why, "%s", pg_last_error ());
         pg_scene_fault (scene, "method.force", "%s: %s", p->method->name, why);
         PG_TRY (pg_scene_verdict (scene));
@@ -165,8 +166,9 @@ done:
     return status;
 }
 
-/* What varies from place to place in what the loops over bonds know of: stiffness of pairs and beams, limits
- * of bonds; those of points and tips, and constants of state-based forces, are looked up point by point. */
+/* Reports properties that vary over the body, of those that stencils and transforms need to be constant:
+ * stiffness of pair and micropolar forces, limits of bonds. (Limits of points and tips, and constants of
+ * state-based forces, are read point by point and may vary.) */
 static void refuse_fields (const pg_problem *p, const pg_scene *scene)
 {
     const pg_criterion *c = p->criterion;
@@ -187,16 +189,17 @@ static void refuse_fields (const pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* Stencils and transforms sum all bonds of one offset with one constant: materials that differ need lists. */
+/* Reports materials that differ if the scene asks for a stencil or transforms, which have one constant for
+ * all bonds of an offset. */
 void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
 {
     pg_evaluation asked = p->sums->rule.evaluation;
     refuse_fields (p, scene);
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
-        /* points die by themselves, or tips are judged: the loops know of no limit */
+        /* criteria of points or tips: the loops over bonds have no limits */
         int at_points = a->type && (a->type->needs & (PG_NEEDS_ENERGY | PG_NEEDS_FACETS));
-        /* state-based loops know each point's constants */
+        /* state-based loops have the constants of each point */
         int alike = (p->sums->rule.state && !p->sums->rule.beams)
                     || (p->material[m].modulus == p->material[0].modulus
                         && (!p->sums->rule.beams || p->material[m].nu == p->material[0].nu));
@@ -213,9 +216,9 @@ void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
     }
 }
 
-/* ---- criteria and words -------------------------------------------------------------------------------- */
-/* The measured toughness lets a critical stretch from a fracture energy consume that energy on these
- * points. */
+/* ---- criteria and texts -------------------------------------------------------------------------------- */
+/* Fills in what the criterion needs to know of the force; toughness: with it a critical stretch from a
+ * fracture energy consumes that energy on these points. */
 pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_setting *setting)
 {
     const pg_sum_rule *rule = &p->sums->rule;
@@ -228,17 +231,17 @@ pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_
     return PG_OK;
 }
 
-/* Points beside a crack that has cut all that crosses it have lost bonds on the other side, and with them
- * stiffness: such a crack acts as one that is longer. Measured on an edge crack of half the width in tension,
- * sqrt (E J) against K in closed form at 20 and 40 spacings, on nine lattices: +4.1 % at a horizon of 3
- * spacings, +4.5 % at 4, +5.5 % at 5, half of that at 40. */
+/* Points beside a crack have lost the bonds across it, and stiffness with them: the crack acts as a longer
+ * one, by this offset (spacings). Measured on an edge crack of half the width in tension, sqrt (E J) against
+ * K in closed form, on nine lattices: at 20 spacings +4.1 % at a horizon of 3 spacings, +4.5 % at 4, +5.5 %
+ * at 5; half of that at 40 spacings. */
 double bond_force_tip_offset (const pg_problem *p)
 {
     double m = p->form.approx.horizon / p->cloud.h;
     return m < 4 ? 0.40 + 0.02 * (fmax (m, 3) - 3) : 0.42 + 0.08 * (fmin (m, 5) - 4);
 }
 
-/* One line for the plan. */
+/* Writes a line about the force for the plan of a run. */
 void bond_force_words (const pg_problem *p, char *text, size_t size)
 {
     snprintf (text, size, "force %s, %s kernel", p->method->name, p->form.approx.kernel->name);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a plan says about bonds: constants, how they are summed, the largest explicit time step; which solvers
- * they do not go with. */
+ * Texts about bonds for the plan of a run: constants, how bonds are summed, the largest explicit time step;
+ * which solvers these forces refuse. */
 #include "bond_force.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* How bonds are summed, and why so. */
+/* Says how bonds are summed, and why so. */
 static void say_sums (const bond_force *b, char *text, size_t size)
 {
     static const char *const partial[] = { "none", "linear", "overlap" }, *const surface[] = { "none",
@@ -21,7 +21,7 @@ static void say_sums (const bond_force *b, char *text, size_t size)
         pg_bond_loop_name (b->loop), *why ? " (" : "", why, *why ? ")" : "");
 }
 
-/* How the energy of a crack compares with that of theory. */
+/* Says how the energy of a crack compares with that of theory. */
 static void say_toughness (const bond_force *b, char *text, size_t size)
 {
     const pg_sums *s = b->problem->sums;
@@ -41,7 +41,7 @@ static void say_toughness (const bond_force *b, char *text, size_t size)
                   "not calibrated for them");
 }
 
-/* The bound of the stable time step; 0: a material has no density. */
+/* Says the bound of the stable time step; returns 0 if there is none, as a material has no density. */
 static int say_step (const bond_force *b, char *text, size_t size)
 {
     double omega;
@@ -51,7 +51,7 @@ static int say_step (const bond_force *b, char *text, size_t size)
     return 1;
 }
 
-/* A line for each material, then sums, toughness, time step. */
+/* Writes line `line`: one for each material, then sums, toughness, time step; returns 0 past the last. */
 int bond_force_describe (const void *self, size_t line, char *text, size_t size)
 {
     const bond_force *b = self;
@@ -63,7 +63,7 @@ int bond_force_describe (const void *self, size_t line, char *text, size_t size)
     return 1;
 }
 
-/* Folded stencils: blocks whose bonds all live. */
+/* Says what time folded stencils have saved, on blocks of points with all bonds intact. */
 int bond_force_spared (const void *self, size_t k, char *what, char *why, double *seconds)
 {
     const bond_force *b = self;
@@ -77,7 +77,7 @@ int bond_force_spared (const void *self, size_t k, char *what, char *why, double
     return 1;
 }
 
-/* Implicit solvers need forces that are linear in the displacement. */
+/* Returns why a solver cannot be used, NULL: it can. Implicit ones need forces linear in the displacement. */
 const char *bond_force_refuses (const pg_problem *problem, unsigned solver)
 {
     if ((solver & PG_SOLVER_IMPLICIT) && problem->sums && problem->sums->rule.finite)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Dilatations of points and what follows from them: weighted volumes, diagonal of K, bound of frequencies,
- * stress (Silling et al. 2007; theory B6). In 2D and 3D. */
+ * Forces by the dilatations of points: weighted volumes, diagonal of K, bound of frequencies, stress (Silling
+ * et al. 2007; theory B6). In 2D and 3D. */
 #include "dilatation.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- constants ----------------------------------------------------------------------------------------- */
-/* Bonds of a new state, which the pre-cracks have cut: weighted volumes are those of the body as it is at
- * the start. None are kept where there are no pre-cracks, as all bonds count then. */
+/* Sets `counted`: the bonds that no pre-crack cuts, as weighted volumes are those of the body at the start.
+ * It stays NULL without pre-cracks: all bonds count then. */
 static pg_status count_bonds (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -22,7 +22,7 @@ done:
     return status;
 }
 
-/* Constants A and B of every point (Pa), which the theory fills, and what follows from them. */
+/* Makes b->dilatation: A and B of every point (Pa), which the theory fills in later, q and stiff. */
 pg_status dilatation_create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -50,9 +50,9 @@ void dilatation_free (bond_force *b)
     b->dilatation = NULL;
 }
 
-/* Weighted volumes q of all points and `stiff` = (B + d A) / q, the stiffness of a pull between two
- * points that is at least that of their dilatations: once for good, or after every break where weighted
- * volumes follow the live bonds. */
+/* Computes the weighted volumes q of all points, and stiff = (B + d max (A, 0)) / q, with which a pair force
+ * is at least as stiff as the dilatations: once for all, or after every break if weighted volumes follow the
+ * intact bonds. */
 pg_status dilatation_weigh (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -79,8 +79,8 @@ done:
 }
 
 /* ---- one point ----------------------------------------------------------------------------------------- */
-/* Weight k beta of a bond without the factor of surfaces, which is for the bonds: weighted volumes see to
- * the surface themselves. */
+/* Weight k beta of a bond without the surface correction, which is for pair forces: weighted volumes allow
+ * for incomplete families by themselves. */
 double dilatation_weight (const bond_force *b, size_t i, const point_bonds *s, size_t e)
 {
     const pg_sums *sums = b->problem->sums;
@@ -91,8 +91,9 @@ double dilatation_weight (const bond_force *b, size_t i, const point_bonds *s, s
            * (sums->rule.surface == PG_SURFACE_VOLUME ? 0.5 * (v[i] + v[j]) : sqrt (v[i] * v[j]));
 }
 
-/* Adds kappa xi x xi to both blocks of a bond, kappa = both w V V / (r^2 r): a pull along the bond in the
- * place of dilatations, for preconditioners and bounds. `both`: sum of `stiff` of the ends. */
+/* Adds kappa xi x xi to own and subtracts it from other, kappa = both k beta V V / r^3, N/m^3: a pair force
+ * along the bond that replaces the dilatations, for preconditioners and bounds. both: sum of `stiff` of its
+ * ends. */
 void dilatation_pull (const bond_force *b, size_t i, const point_bonds *s, size_t e, double both, double *own,
                       double *other)
 {
@@ -106,7 +107,7 @@ void dilatation_pull (const bond_force *b, size_t i, const point_bonds *s, size_
             own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
 }
 
-/* w of a bond, m^-1 times the kernel; rr: its squared length, m^2. */
+/* Returns w = k beta / r of bond e, 1/m; rr: its squared length, m^2. */
 static double weight_of (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *rr)
 {
     size_t dim = (size_t) b->dim;
@@ -115,11 +116,11 @@ static double weight_of (const bond_force *b, size_t i, const point_bonds *s, si
     return dilatation_weight (b, i, s, e) / sqrt (*rr);
 }
 
-/* a / q, 0 where the point has no bond left. */
+/* Returns a / q; 0 if q is 0, as the point has no bond left. */
 static double over (double a, double q) { return q > 0 ? a / q : 0; }
 
-/* Second derivatives of the energy by u_i (dim x dim, N/m): of its own dilatation A d / q^2 V g g with g
- * = sum w V xi; of those of its neighbours; of the stretches, B / q at both ends. */
+/* Second derivatives D of the energy by u_i (dim x dim, N/m): from the point's own dilatation A d / q^2 V g g
+ * with g = sum w V xi, from the dilatations of its neighbours, and from the stretches, B / q at both ends. */
 void dilatation_own (const bond_force *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim;
@@ -145,9 +146,9 @@ void dilatation_own (const bond_force *b, size_t i, const point_bonds *s, double
             D[a * dim + c] += V[i] * over (b->dilatation->A[i] * b->dim, q[i] * q[i]) * g[a] * g[c];
 }
 
-/* Bound of omega^2 rho at a point, for the stable time step. A q that follows shrinks as bonds die, yet
- * never below what one live bond makes it, w r^2 V: the bound takes the nearest neighbour as if it were
- * alone. */
+/* Upper bound of omega^2 rho at a point, for the stable time step. A q that follows the intact bonds shrinks
+ * as bonds break, but is at least w r^2 V of the last intact one: the bound assumes that this is the nearest
+ * neighbour. */
 double dilatation_bound (const bond_force *b, size_t i, const point_bonds *s)
 {
     const double *V = b->problem->cloud.volume;
@@ -161,8 +162,8 @@ double dilatation_bound (const bond_force *b, size_t i, const point_bonds *s)
     return 2 * (sum + (b->dilatation->B[i] + far * fmax (b->dilatation->A[i], 0)) / nearest);
 }
 
-/* Adds the stress of Silling and Lehoucq (2008), Pa (dim x dim): its trace is d kappa theta for uniform
- * strain, whatever the family. */
+/* Adds the stress of Silling and Lehoucq (2008) to T, Pa (dim x dim): for uniform strain its trace is d kappa
+ * theta, whatever the family. */
 void dilatation_virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                         const double *d,
                  double *T)

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rows of K for preconditioners of forces with dilatations, within the bonds' reach: K itself has neighbours
- * of neighbours. Energy of a point's dilatation, A theta^2 / (2 d) V: theta from the gradient over the
- * nearest points alone (half the horizon, 1.5 spacings at most; exact for uniform strain, as theta is, so
- * that coarse grids see the body's own bulk modulus), where these and the bonds among them live; elsewhere
- * bonds alone that are at least as stiff (d A / q, lps.c). */
+ * Approximate rows of K for preconditioners of forces with dilatations, which reach no further than bonds; K
+ * itself couples neighbours of neighbours. In the energy of a point's dilatation, A theta^2 / (2 d) V, theta
+ * is taken from the displacement gradient over the nearest points only (within half the horizon, 1.5 spacings
+ * at most). This is exact for uniform strain, so that coarse grids have the true bulk modulus. Where bonds to
+ * or among these points are broken, pair forces that are at least as stiff (d A / q) are used instead. */
 #include "dilatation.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-enum { MOST = 36, NEAR = 40 };                         /* numbers of a block; nearest points looked at */
+enum { MOST = 36, NEAR = 40 };                         /* most numbers of a block; most nearest points */
 struct dilatation_rows {
-    size_t *start;  int *node;                         /* nearest points of each (n + 1; of all) */
+    size_t *start;  int *node;                         /* nearest points of each point (n + 1; start[n]) */
     double *inverse;                                   /* of sum V xi x xi over them, 1/m^5 (n x dim x dim) */
-    double *stiff;  /* C / q, or B / q where theta is that of the nearest (n) */
-    unsigned char *narrow, *uniform;                   /* that is so; row like that of all such (n) */
-    unsigned char *intact;                             /* no bond of the point is dead (n) */
-    double *whole;                                     /* that row; NULL: there is none */
+    double *stiff;  /* C / q, or B / q where theta is taken from the nearest points (n) */
+    /* 1: theta is taken from the nearest points; 1: the row is the one that most points share (n) */
+    unsigned char *narrow, *uniform;
+    unsigned char *intact;                             /* 1: no bond of the point is broken (n) */
+    double *whole;                                     /* the shared row of blocks; NULL: there is none */
 };
 
 /* Frees the rows of the last preconditioner, if there are any. */
@@ -38,8 +39,9 @@ static void offset (const bond_force *b, size_t i, size_t j, double *xi)
         xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
 }
 
-/* The nearest points of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are
- * each other's neighbours: a kernel that vanishes there has none. */
+/* Lists the nearest points of point i, at most NEAR (-1 if the bond to one is broken); returns their number.
+ * They lie within half the horizon, so that they are each other's neighbours (a kernel that vanishes at the
+ * horizon: less). */
 static size_t nearest (const bond_force *b, size_t i, int *node)
 {
     const pg_family *f = b->family;
@@ -56,7 +58,8 @@ static size_t nearest (const bond_force *b, size_t i, int *node)
     return m;
 }
 
-/* Entry of the bond to j in point i's part of the family, by bisection; one that is dead or missing: -1. */
+/* Returns the entry of the bond from i to j in the family, by bisection; -1: it is broken, or there is
+ * none. */
 static long entry_of (const bond_force *b, size_t i, int j)
 {
     const int *node = b->family->node;
@@ -69,8 +72,9 @@ static long entry_of (const bond_force *b, size_t i, int j)
     return low < high && node[low] == j && bond_force_lives (b, low) ? (long) low : -1;
 }
 
-/* Can the dilatation of point i be taken from its nearest points? They must live, lie in all directions,
- * and each be the other's neighbour: their rows of K then have a place for what they share. */
+/* Can the dilatation of point i be taken from its nearest points? The bonds to them must be intact, there
+ * must be enough, and they must be each other's neighbours, so that their rows of K have the blocks that this
+ * needs. */
 static int is_narrow (const bond_force *b, const dilatation_rows *r, size_t i, size_t m, const int *node)
 {
     int intact = r->intact[i] && b->problem->sums->stencil.n;
@@ -84,8 +88,8 @@ static int is_narrow (const bond_force *b, const dilatation_rows *r, size_t i, s
     return 1;
 }
 
-/* Inverse of sum V xi x xi over the nearest points, 1/m^(dim + 2); 0: they do not spread in all
- * directions, the smallest eigenvalue being less than a tenth of the largest. */
+/* Computes the inverse of sum V xi x xi over the nearest points, 1/m^5. Returns 0 if these do not span all
+ * directions: if the smallest eigenvalue is less than a tenth of the largest. */
 static int invert (const bond_force *b, size_t i, size_t m, const int *node, double *out)
 {
     size_t dim = (size_t) b->dim;
@@ -106,7 +110,7 @@ static int invert (const bond_force *b, size_t i, size_t m, const int *node, dou
     return 1;
 }
 
-/* How many nearest points each point of a range has, and whether it lost a bond. */
+/* Counts the nearest points of each of the points first .. last - 1, and sets `intact`. */
 static void count_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -120,8 +124,8 @@ static void count_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* The nearest points themselves, and whether the dilatation can be taken from them; stiff: what bonds
- * must bear alone, B / q beside a dilatation, else all. */
+/* Lists the nearest points of points first .. last - 1, and decides whether the dilatation can be taken from
+ * them (narrow). stiff: what pair forces must bear: B / q if it can, else C / q. */
 static void find_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -138,8 +142,8 @@ static void find_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Which points have the row that most points of a lattice have: all bonds, and nothing but gradients over
- * the nearest, with one B / q, at the point and whatever it sees. */
+/* Sets `uniform` for points first .. last - 1 whose row is that of most points of a lattice: they have all
+ * bonds, and they and all their neighbours are narrow and have the same B / q. */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -157,8 +161,8 @@ static void compare_points (void *context, size_t first, size_t last, int thread
 }
 
 /* ---- a row --------------------------------------------------------------------------------------------- */
-/* g_j of theta_k = sum_j g_j . (u_j - u_k), from the inverse of the nearest points: what the displacement
- * of point j adds to the dilatation of k; of k itself minus their sum. */
+/* Derivative g (1/m) of the dilatation of point k, taken from its nearest points, by the displacement of
+ * point j: theta_k = sum_j g_j . (u_j - u_k); for j = k minus the sum of the others. */
 static void gradient (const bond_force *b, size_t k, int j, double *g)
 {
     const dilatation_rows *r = b->dilatation->rows;
@@ -174,8 +178,8 @@ static void gradient (const bond_force *b, size_t k, int j, double *g)
     for (size_t a = 0; a < dim; a++) g[a] = (size_t) j == k ? -sum[a] : sum[a];
 }
 
-/* What the dilatation of point k adds to the row of point i, V A / d g_i x g_j for all j of k; n blocks
- * are at `node`, the own one being the last. */
+/* Adds the share of the dilatation of point k to the row of point i: V A / d g_i x g_j for k and its nearest
+ * points j. node: nodes of the row's n blocks, i last. */
 static void add_dilatation (const bond_force *b, size_t i, size_t k, size_t n, const int *node, double *value)
 {
     const dilatation_rows *r = b->dilatation->rows;
@@ -191,14 +195,14 @@ static void add_dilatation (const bond_force *b, size_t i, size_t k, size_t n, c
             else high = middle;
         }
         if ((size_t) j == i) low = n - 1;
-        if (node[low] != j) continue;                  /* cannot be: they are neighbours */
+        if (node[low] != j) continue;                  /* never happens: i and j are neighbours */
         gradient (b, k, j, other);
         for (size_t a = 0; a < dim; a++)
             for (size_t c = 0; c < dim; c++) value[low * m * m + a * m + c] += scale * mine[a] * other[c];
     }
 }
 
-/* Blocks of one bond: what stands beside the dilatation, and a pull that makes it stiff enough. */
+/* Blocks of bond e: of the micropolar bond, if any, and of the pair force that replaces the dilatation. */
 static void pull_block (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own,
                         double *other)
 {
@@ -209,8 +213,8 @@ static void pull_block (const bond_force *b, size_t i, const point_bonds *s, siz
                      other);
 }
 
-/* Blocks of all live bonds of point i, then what the dilatations of the point and of those around it add;
- * the nodes in `node`, its own last. Returns their number. */
+/* Row of point i: blocks of all its intact bonds, its own last, plus the shares of the dilatations of the
+ * point and of its neighbours. node: their nodes. Returns the number of blocks. */
 static size_t make_row (const bond_force *b, size_t i, int thread, int *node, double *value)
 {
     const dilatation_rows *r = b->dilatation->rows;
@@ -227,14 +231,14 @@ static size_t make_row (const bond_force *b, size_t i, int thread, int *node, do
     memcpy (value + m * bb, own, bb * sizeof *own);
     node[m++] = (int) i;
     if (r->narrow[i]) add_dilatation (b, i, i, m, node, value);
-    for (size_t e = 0; e + 1 < m; e++)                 /* points that have i among their nearest */
+    for (size_t e = 0; e + 1 < m; e++)                 /* neighbours that have i among their nearest points */
         if (r->narrow[node[e]])
             for (size_t k = r->start[node[e]]; k < r->start[node[e] + 1]; k++)
                 if ((size_t) r->node[k] == i) add_dilatation (b, i, (size_t) node[e], m, node, value);
     return m;
 }
 
-/* Row of a point, for pg_couplings; value NULL: its nodes alone. */
+/* pg_couplings.row: blocks of the row of point i; value NULL: only nodes. */
 static size_t row (void *context, size_t i, int thread, int *node, double *value)
 {
     const bond_force *b = context;
@@ -254,15 +258,14 @@ static size_t row (void *context, size_t i, int thread, int *node, double *value
     return m;
 }
 
-/* May the shared row serve this point?. */
+/* pg_couplings.alike: 1: point i has the shared row. */
 static int is_uniform (void *context, size_t i)
 {
     return ((const bond_force *) context)->dilatation->rows->uniform[i];
 }
 
-/* ---- all of them --------------------------------------------------------------------------------------- */
-/* One row serves all points alike on a lattice without shares of volume, factors of surfaces or several
- * moduli. */
+/* ---- all rows ------------------------------------------------------------------------------------------ */
+/* Makes the shared row: on a lattice with equal volumes, one material and no surface correction. */
 static pg_status find_whole (bond_force *b, pg_couplings *out)
 {
     pg_status status = PG_OK;
@@ -283,7 +286,7 @@ done:
     return status;
 }
 
-/* Made anew for every preconditioner, for the bonds that live then. */
+/* Makes the data of rows anew for each preconditioner, for the bonds that are intact then. */
 pg_status dilatation_couplings (bond_force *b, pg_couplings *out)
 {
     pg_status status = PG_OK;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The fast convolution-based method (Jafarzadeh et al. 2022; theory B): the forces of bonds, whose sums are
- * by FFT and whose points die by energy unless the scene says otherwise. */
+ * The fast convolution-based method (Jafarzadeh et al. 2022; theory B): bond-based forces; unless the scene
+ * says otherwise they are summed by FFT, and points lose all their bonds at a limit of energy. */
 #include "pairwise.h"
 
-/* By transforms, unless the scene says how. */
+/* The rule of bond-based forces, summed by transforms unless the scene says how. */
 static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                   double spacing,
                   int lattice)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Generalised micropolar peridynamics as an entry of the catalogue: its keys, what it needs and refuses,
- * what failure criteria take their constants from. */
+ * Generalised micropolar peridynamics as an entry of the catalogue: its keys, what it needs and refuses, the
+ * energies from which failure criteria derive their constants. */
 #include "micropolar.h"
 #include <math.h>
 #include <string.h>
@@ -33,10 +33,10 @@ static int is (const pg_scene *scene, const char *key, const char *word)
     return text && strcmp (text, word) == 0;
 }
 
-/* Dilatations reach the neighbours of neighbours, so that there is no matrix. */
+/* 1: forces couple neighbours of neighbours, by dilatations, so that there is no matrix. */
 static int long_range (const pg_scene *scene) { return pg_scene_bool (scene, "method.volumetric"); }
 
-/* Bonds as beams; with volumetric: on a dilatation beside them. */
+/* The rule of bonds as beams; with volumetric: on also that of a dilatation. */
 static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                   double spacing,
                   int lattice)
@@ -46,8 +46,8 @@ static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const p
     if (long_range (scene)) bond_force_rule_with_dilatation (out, scene);
 }
 
-/* The bonds' own Poisson's ratio may be neither more than they bear nor more than the material's: dilatation
- * would have negative energy. */
+/* Reads and checks method.bond_poisson: it may not exceed the largest Poisson's ratio of micropolar bonds,
+ * nor that of the material, as the dilatation would have negative energy. */
 static void check_volumetric (const pg_problem *p, micropolar_options *o, const pg_scene *scene)
 {
     static const char key[] = "method.bond_poisson";
@@ -89,9 +89,9 @@ static void check_materials (const pg_problem *p, const pg_scene *scene, const p
     }
 }
 
-/* The bending stiffness over the shear stiffness: B / C_t of a beam: Euler and Bernoulli 1; with shear,
- * phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3 C_t (theory G1). Keys of another beam, and what
- * beams cannot do, are faults. */
+/* Reads bending over shear stiffness, B / C_t: 1 for Euler and Bernoulli's beam, 1 + phi with shear, phi = 12
+ * EI / (k G A r^2), and 4 C_M / C_t - 3 for Chen's (theory G1). Keys of another beam, and what beams cannot
+ * do, are faults. */
 static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
     micropolar_options *o = p->options;
@@ -119,7 +119,7 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
     check_materials (p, scene, rule);
 }
 
-/* Options first: the checks of the rule fill them. */
+/* Makes the options first, as the checks of the rule (read_beams) fill them in. */
 static pg_status read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -135,8 +135,8 @@ done:
 }
 
 /* ---- criteria and loads -------------------------------------------------------------------------------- */
-/* Energy of a straight cut, J/m^2, with all bonds across it at s = 1, gamma = 1, kappa = 1: fracture
- * energies become limits by these three. */
+/* Energies of a straight cut, J/m^2, with all bonds across it at s = 1, at gamma = 1, and at kappa = 1:
+ * limits follow from fracture energies by these three. */
 static pg_status measure_beams (double *out, const pg_problem *p, double axial, double shear)
 {
     pg_status status = PG_OK;
@@ -150,7 +150,8 @@ done:
     return status;
 }
 
-/* Energies of a straight cut by stretch, shear and bending alone, with the share of the dilatation. */
+/* Fills in energies of a straight cut by stretch (with the share of the dilatation), by shear and by
+ * bending. */
 static pg_status limits (const pg_problem *p, size_t material, pg_criterion_setting *s)
 {
     pg_status status = PG_OK;
@@ -169,7 +170,7 @@ done:
     return status;
 }
 
-/* At the largest Poisson's ratio of micropolar bonds their shear stiffness vanishes. */
+/* Do the bonds of a material bear shear? Their shear stiffness vanishes at the largest Poisson's ratio. */
 static int bears_shear (const pg_problem *p, int material)
 {
     double E, nu, dilation;
@@ -177,8 +178,8 @@ static int bears_shear (const pg_problem *p, int material)
     return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
 }
 
-/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go
- * nowhere. Asked once every point has its material. */
+/* Reports moments on points whose bonds bear no shear, as nothing resists their rotations. Called once every
+ * point has its material. */
 static void check_moments (const pg_problem *p, const pg_scene *scene)
 {
     const int *material = p->block[PG_NODES];
@@ -197,8 +198,8 @@ static void check_moments (const pg_problem *p, const pg_scene *scene)
     }
 }
 
-/* Measured as that of pair forces: 0.36 spacings at Poisson's ratios of 0.1 and 0.25 and horizons of 3 and
- * 5. */
+/* Measured as in bond_force_tip_offset: 0.36 spacings at Poisson's ratios of 0.1 and 0.25 and horizons of 3
+ * and 5 spacings. */
 static double tip_offset (const pg_problem *p)
 {
     (void) p;

@@ -3,7 +3,7 @@
 #include "state_based.h"
 #include <string.h>
 
-/* Corrections of surfaces are left out unless asked for: weighted volumes know incomplete families. */
+/* Surface corrections are left out unless asked for, as weighted volumes allow for incomplete families. */
 static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                   double spacing,
                   int lattice)
@@ -14,14 +14,14 @@ static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const p
     if (strcmp (pg_scene_text (scene, surface), "auto") == 0) out->surface = PG_SURFACE_NONE;
 }
 
-/* Always: the dilatation of a neighbour depends on its neighbours. */
+/* 1: forces always couple neighbours of neighbours, as the dilatation of a neighbour depends on these. */
 static int long_range (const pg_scene *scene)
 {
     (void) scene;
     return 1;
 }
 
-/* Any Poisson's ratio; families that are not whole count by their own q. */
+/* Reports what this force does not allow: a matrix, one dimension, finite stretch, surface corrections. */
 static void check (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
     bond_force_refuse_matrix (p, scene, "");
@@ -41,9 +41,9 @@ static void check (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule
 }
 
 
-/* Points beside a crack are weighed by the bonds that they have left, so that they lose next to no stiffness.
- * Measured as that of pair forces: +0.5 % of K, 0.05 spacings, for Poisson's ratios from 0.1 to 0.4 and
- * horizons from 3 to 5. */
+/* The weighted volume of points beside a crack has only the bonds that they have left, so that they lose
+ * hardly any stiffness. Measured as in bond_force_tip_offset: +0.5 % of K, 0.05 spacings, for Poisson's
+ * ratios from 0.1 to 0.4 and horizons from 3 to 5 spacings. */
 static double tip_offset (const pg_problem *p)
 {
     (void) p;

@@ -10,13 +10,13 @@
 static const micropolar_options *options_of (const pg_problem *p) { return p->options; }
 
 /* ---- constants ----------------------------------------------------------------------------------------- */
-/* Of micropolar bonds beside an energy of the dilatation, at most: there the two shears of a lattice with a
- * horizon of 3 spacings come nearest to each other (0.3 %; 2 % at the largest ratio, where bonds bear no
- * shear, 6 % at 0) */
+/* Default of the bonds' own Poisson's ratio beside an energy of the dilatation, at most: there the two shear
+ * moduli of a lattice with a horizon of 3 spacings differ least (0.3 %; 2 % at the largest ratio, where bonds
+ * bear no shear, 6 % at 0). */
 static double usual_poisson (pg_mode mode) { return mode == PG_PLANE_STRESS ? 0.25 : 0.2; }
 
-/* Beside a dilatation the bonds make the Poisson's ratio that is asked for, and the dilatation bears the
- * rest. */
+/* With a dilatation the bonds have the Poisson's ratio of the options, and the dilatation bears the
+ * difference to the material. */
 void micropolar_split (const pg_problem *p, const pg_material *m, double *E, double *nu, double *dilation)
 {
     const micropolar_options *o = options_of (p);
@@ -26,8 +26,8 @@ void micropolar_split (const pg_problem *p, const pg_material *m, double *E, dou
     pg_beam_split (E, dilation, p->mode, m->modulus, m->nu, *nu);
 }
 
-/* The s, gamma or kappa at which a bond of two points like this one breaks: the criterion's own answer for a
- * bond of unit stretch, shear or bending. */
+/* Returns the critical s, gamma or kappa (which = 0, 1, 2) of a bond between two points of this horizon
+ * ratio: the load factor that the criterion gives for a bond of unit stretch, shear or bending. */
 static double limit_at (const pg_criterion *c, double ratio, int which)
 {
     double one = 1, factor = 0, part[3] = { which == 0, which == 1, which == 2 };
@@ -38,7 +38,7 @@ static double limit_at (const pg_criterion *c, double ratio, int which)
     return factor;
 }
 
-/* Limits of stretch, shear and bending of points; criteria of energies have none. */
+/* Makes the limits of stretch, shear and bending of all points; criteria of energies have none. */
 static pg_status make_limits (bond_force *b)
 {
     micropolar *own = (micropolar *) b;
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* Constants of beams of every point, and A of the dilatation beside them. */
+/* Computes the constants of the beams of every point, and A of the dilatation beside them. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -72,7 +72,7 @@ static pg_status create (bond_force *b)
     PG_ALLOC (own->shear, b->n);
     PG_ALLOC (own->bending, b->n);
     PG_ALLOC (b->idle, b->n);
-    const pg_material *before = NULL;                  /* of the point before, which mostly has the same */
+    const pg_material *before = NULL;                  /* material of the previous point, mostly the same */
     double axial = 0, shear = 0, dilation = 0;
     for (size_t i = 0; i < b->n; i++) {
         const pg_material *law = pg_problem_law (p, PG_NODES, i);
@@ -96,7 +96,7 @@ done:
     return status;
 }
 
-/* What create made; the base frees its own. */
+/* Frees what `create` has made; bond_force_free frees the rest. */
 static void destroy (bond_force *b)
 {
     micropolar *own = (micropolar *) b;
@@ -105,7 +105,8 @@ static void destroy (bond_force *b)
         pg_free (own->bending_limit);
 }
 
-/* A dilatation reaches further than one row of bonds: no sharing then. */
+/* Has point k the constants of point 0? Never with a dilatation, which reaches further than the point's
+ * bonds. */
 static int alike (const bond_force *b, size_t k)
 {
     const micropolar *own = micropolar_of (b);
@@ -113,7 +114,7 @@ static int alike (const bond_force *b, size_t k)
 }
 
 /* ---- one bond ------------------------------------------------------------------------------------------ */
-/* The beam alone, without a dilatation. */
+/* Blocks of the beam alone, without a dilatation. */
 static void beam (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     const double *xi = s->xi + e * (size_t) b->dim;
@@ -122,7 +123,7 @@ static void beam (const bond_force *b, size_t i, const point_bonds *s, size_t e,
     pg_beam_blocks (b->dim, xi, &bond, b->length, own, other ? other : spare);
 }
 
-/* The beam, and for a dilatation a pull that is at least as stiff. */
+/* Blocks of the beam, and of a pair force that is at least as stiff as the dilatation. */
 static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     double spare[36];
@@ -140,7 +141,7 @@ static void strain (const bond_force *b, const double *xi, const double *di, con
     pg_beam_strain (b->dim, xi, b->length, di, dj, shear, bending);
 }
 
-/* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
+/* Adds the virial of one bond, Pa: T[a * dim + c] += 1/2 f_a xi_c / V_i with the force f on i. */
 static void add_virial (const bond_force *b, size_t i, const point_bonds *s, size_t e, const double *d,
                              double *T)
 {
@@ -155,7 +156,7 @@ static void add_virial (const bond_force *b, size_t i, const point_bonds *s, siz
     }
 }
 
-/* Of the dilatation, then of the beams. */
+/* Virial stress of point i: of the dilatation, then of the beams. */
 static void virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                     const double *d, double *T)
 {
@@ -163,7 +164,7 @@ static void virial (const bond_force *b, size_t i, const point_bonds *s, const u
     for (size_t e = 0; e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
 }
 
-/* By the law of the end that is nearer to its limit */
+/* Mode by which a bond breaks, by the limits of the end with the larger utilisation. */
 char micropolar_kind_of (const bond_force *b, const double *d, size_t entry)
 {
     const pg_problem *p = b->problem;
@@ -190,8 +191,8 @@ char micropolar_kind_of (const bond_force *b, const double *d, size_t entry)
     return kind;
 }
 
-/* ---- words --------------------------------------------------------------------------------------------- */
-/* Constants of the beams of a material. */
+/* ---- texts --------------------------------------------------------------------------------------------- */
+/* Writes the constants of the beams of material m. */
 static void words (const bond_force *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
@@ -233,7 +234,7 @@ static const bond_theory theory = { .size = sizeof (micropolar),
                                      .find_dying = dilatation_dying,
                                      .words = words };
 
-/* Entry of pg_force_type. */
+/* pg_force_type.create */
 pg_status micropolar_create (void **self, const pg_problem *problem)
 {
     return bond_force_make (self, problem, &theory);

@@ -5,14 +5,14 @@
 #define PG_MICROPOLAR_H
 #include "dilatation.h"
 
-/* What is read from the scene (pg_problem.options). */
+/* Options of the force in the scene (pg_problem.options). */
 typedef struct {
     double bending;                                    /* B / C_t */
-    /* Poisson's ratio asked of the bonds; NAN: the usual one */
+    /* Poisson's ratio that the bonds shall have; NAN: the default */
     double bond_poisson;
 } micropolar_options;
-/* Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of
- * the dilatation beside them (pg_beam_split), 0 without volumetric: on. */
+/* Young's modulus (Pa) and Poisson's ratio of the bonds of a material without dilatation; dilation (Pa): A of
+ * the dilatation beside them (pg_beam_split), 0 unless the scene has volumetric: on. */
 void      micropolar_split  (const pg_problem *problem, const pg_material *material, double *E, double *nu,
                              double *dilation);
 
@@ -20,7 +20,7 @@ typedef struct {
     bond_force base;
     double *modulus;                                   /* C_N of each point, N/m^6 (n) */
     double *shear, *bending;                           /* C_t and B of each point, N/m^4 (n) */
-    /* gamma0, kappa0; NULL: bonds do not break by theirs (n) */
+    /* limits gamma0 (1) and kappa0 (rad); NULL: bonds do not break by shear and bending (n) */
     double *shear_limit, *bending_limit;
     pg_beam_law law;                                   /* constants and limits above, for the bond loop */
 } micropolar;

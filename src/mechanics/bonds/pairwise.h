@@ -10,21 +10,22 @@ typedef struct pairwise_tiles pairwise_tiles;          /* pairwise_tiles.c */
 typedef struct {
     bond_force base;
     double *modulus;                                   /* c of each point, N/m^6 (n) */
-    /* kappa of the bonds of a point that has all those of the stencil; NULL: points differ in some bit */
+    /* kappa (N/m^3) of the bonds of a point with all bonds of the stencil; NULL: not the same bits at all
+     * points */
     double *kappa;
-    pairwise_tiles *tiles;                             /* NULL until points are looked at in motion */
+    pairwise_tiles *tiles;                             /* NULL until a dynamic run looks for dying points */
 } pairwise;
 static inline const pairwise *pairwise_of (const bond_force *b) { return (const pairwise *) b; }
 
 pg_status pairwise_create (void **self, const pg_problem *problem);
-/* N/m^3; r (m) or NULL */
+/* Returns kappa of bond e, N/m^3; writes its length r, m (or NULL). */
 double    pairwise_kappa  (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *r);
-/* J/m^3, of its live bonds */
+/* Returns the energy density of point i by its intact bonds, J/m^3. */
 double    pairwise_energy_at (const bond_force *b, size_t i, int thread, const double *d);
 /* bond_theory.find_dying */
 pg_status pairwise_tiles_look    (bond_force *b, const double *d, size_t *dying);
 void      pairwise_tiles_forget  (bond_force *b);
 void      pairwise_tiles_free    (pairwise_tiles **tiles);
-/* Entries of pg_method: sums, and the only Poisson's ratio that these forces know. */
+/* pg_method.read: makes the sums, and checks that materials have the one Poisson's ratio of these forces. */
 pg_status pairwise_read   (pg_problem *problem, const pg_scene *scene);
 #endif

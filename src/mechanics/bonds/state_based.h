@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: ordinary state-based forces, the linear peridynamic solid: all of the force comes with the
- * dilatations of the ends of a bond (dilatation.h). */
+ * Private: ordinary state-based forces, the linear peridynamic solid: dilatation.h computes all of the
+ * force. */
 #ifndef PG_STATE_BASED_H
 #define PG_STATE_BASED_H
 #include "dilatation.h"

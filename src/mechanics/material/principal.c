@@ -4,7 +4,7 @@
 #include "perigal/material.h"
 #include <math.h>
 
-/* Descending. */
+/* Sorts three numbers, largest first. */
 static void sort3 (double *s)
 {
     double t;
@@ -13,7 +13,8 @@ static void sort3 (double *s)
     if (s[0] < s[1]) t = s[0], s[0] = s[1], s[1] = t;
 }
 
-/* Mohr's circle in the plane; the stress across it is the third. */
+/* Principal stresses of a 2D stress (xx, yy, xy) by Mohr's circle, and the stress zz across the plane,
+ * sorted. */
 static void plane (const double *s, double zz, double *principal)
 {
     double mean = (s[0] + s[1]) / 2, radius = hypot ((s[0] - s[1]) / 2, s[2]);
@@ -23,7 +24,7 @@ static void plane (const double *s, double zz, double *principal)
     sort3 (principal);
 }
 
-/* Of a deviator s - m: the mean m, p^2 = s:s / 6, and the determinant. */
+/* Mean m of a 3D stress s (Voigt), and of its deviator s' = s - m: p^2 = s':s' / 6, and the determinant. */
 static void invariants (const double *s, double *mean, double *p2, double *det)
 {
     *mean = (s[0] + s[1] + s[2]) / 3;
@@ -32,8 +33,8 @@ static void invariants (const double *s, double *mean, double *p2, double *det)
     *det = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
 }
 
-/* Roots of the characteristic polynomial by the cosine of a third of an angle (Smith 1961); nearly equal
- * roots by Jacobi rotations, which keep their digits. */
+/* Principal stresses in 3D: the roots of the characteristic polynomial by the cosine of a third of an angle
+ * (Smith 1961); nearly equal roots by Jacobi rotations, which keep their digits. */
 static void solid (const double *s, double *principal)
 {
     double mean, p2, det;
@@ -73,7 +74,8 @@ static double above_third (double r)
            + c * (0.57681247954 + c * (-0.10649398677 + c * (0.03835290845 - 0.00868835207 * c)));
 }
 
-/* No angle is asked for. The hair is for what the rounding of either way leaves. */
+/* Bounds of the principal stresses in 3D, without trigonometric functions; `hair` is a margin for rounding.
+ * */
 static void bound_solid (const double *s, double *most, double *least)
 {
     const double hair = 1e-12;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What all linear elastic materials share: stress = D strain, and the rotation of a stiffness from the axes
- * of a material to those of the scene. */
+ * Common to all linear elastic materials: stress = D strain, and the rotation of a stiffness from the axes of
+ * a material to those of the scene. */
 #include "perigal/material.h"
 
 void pg_tangent_stress (const pg_material *m, size_t n, const double *strain, double *stress, double *zz)
@@ -19,8 +19,8 @@ void pg_tangent_stress (const pg_material *m, size_t n, const double *strain, do
     }
 }
 
-/* Strains in the axes of the material are T strains in those of the scene (Voigt, engineering shears): with
- * e' = R e R' component by component,
+/* Makes T, which gives strains in the axes of the material as T times strains in the axes of the scene
+ * (Voigt, engineering shears): with e' = R e R' component by component,
  *   e'_ij = sum_kl R_ik R_jl e_kl,  gamma_ij = 2 e_ij. */
 static void strain_rotation (const double R[9], double T[36])
 {
@@ -34,7 +34,7 @@ static void strain_rotation (const double R[9], double T[36])
         }
 }
 
-/* The energy of a strain is the same in both axes: D = T' C T. */
+/* D = T' C T, as the energy of a strain is the same in the axes of the material and of the scene. */
 void pg_rotate_stiffness (const double R[9], const double C[36], double D[36])
 {
     double T[36], CT[36];

@@ -3,15 +3,14 @@
 #include "perigal/material.h"
 #include <math.h>
 
-/* Rayleigh's equation in x = c / c_s, (2 - x^2)^2 = 4 sqrt ((1 - x^2) (1 - q x^2)) with q = (c_s /
- * c_p)^2: the surface is free of traction for a wave that decays below it. x = 0 solves it without being
- * a wave, so that bisection begins just above; its function is negative below the root and positive above
- * it. */
+/* Rayleigh's equation in x = c / c_s, (2 - x^2)^2 = 4 sqrt ((1 - x^2) (1 - q x^2)) with q = (c_s / c_p)^2: a
+ * wave that decays below a surface free of traction. x = 0 solves the equation without being a wave, so that
+ * bisection begins just above it; left minus right side is negative below the root, positive above. */
 double pg_rayleigh_speed (double pressure, double shear)
 {
     double low = 1e-3, high = 1, q = shear * shear / (pressure * pressure);
     if (!(shear > 0 && pressure > shear)) return 0;
-    for (int k = 0; k < 200; k++) {  /* x = c / c_s; the equation falls from x = 0, rises to 1 at x = 1 */
+    for (int k = 0; k < 200; k++) {  /* x = c / c_s; `value` falls from 0 at x = 0, rises to 1 at x = 1 */
         double x = 0.5 * (low + high), x2 = x * x,
                value = (2 - x2) * (2 - x2) - 4 * sqrt ((1 - x2) * (1 - q * x2));
         if (x == low || x == high) break;
@@ -21,8 +20,8 @@ double pg_rayleigh_speed (double pressure, double shear)
 }
 
 /* ---- anisotropic: Christoffel's equation --------------------------------------------------------------- */
-/* Largest and smallest eigenvalue of Gamma_ik = C_ijkl n_j n_l along the unit vector n: density times speed
- * squared of the fastest and the slowest plane wave (Ting 1996, section 1.3). */
+/* Widens the range [least, most], Pa, to the eigenvalues of Gamma_ik = C_ijkl n_j n_l along the unit vector
+ * n: density times squared speed of the plane waves (Ting 1996, section 1.3). */
 static void christoffel (const pg_material *m, const double *n, double *most, double *least)
 {
     int dim = m->mode == PG_SOLID ? 3 : 2, nv = pg_voigt_size (dim);
@@ -42,12 +41,12 @@ static void christoffel (const pg_material *m, const double *n, double *most, do
 
 enum { DIRECTIONS = 2000 };                            /* speeds within about 0.1 % in three dimensions */
 
-/* The fastest and the slowest of all directions: a spiral of equal areas over half the sphere, or half the
- * circle. Surface waves depend on the direction and are not given. */
+/* Speeds of the fastest and slowest plane wave over many directions: a spiral of equal areas over half the
+ * sphere, or half the circle. Surface waves depend on the direction and are not computed. */
 static pg_waves anisotropic_waves (const pg_material *m)
 {
-    /* pi and the golden angle pi (3 - sqrt 5): turned by it, successive points of the spiral never line
-     * up. */
+    /* pi, and the golden angle pi (3 - sqrt 5): successive points of the spiral, turned by it, spread
+     * evenly. */
     static const double pi = 3.14159265358979323846, golden = 2.39996322972865332;
     double most = 0, least = INFINITY;
     for (int k = 0; k < DIRECTIONS; k++) {
@@ -60,10 +59,10 @@ static pg_waves anisotropic_waves (const pg_material *m)
     return w;
 }
 
-/* Isotropic: c_p = sqrt (D_11 / rho), which in plane stress is the plate's speed and on a line that of a
- * bar, c_s = sqrt (mu / rho). D is the stiffness in Voigt order: entry 21 = 6 * 3 + 3 of a solid and 8 =
- * 3 * 2 + 2 of a plane are the shear modulus, entry 1 is lambda (in plane stress that of the reduced
- * stiffness). Without a density there are no speeds. */
+/* Speeds of waves. Isotropic: c_p = sqrt (D_11 / rho), in plane stress that of a plate, in 1D that of a bar;
+ * c_s = sqrt (mu / rho). D is the stiffness in Voigt order: entry 21 = 6 * 3 + 3 in 3D and 8 = 3 * 2 + 2 in
+ * 2D are the shear modulus, entry 1 is lambda (in plane stress that of the reduced stiffness). Without a
+ * density speeds are 0. */
 pg_waves pg_material_waves (const pg_material *m)
 {
     pg_waves w = {0, 0, 0, 0, 0};
