@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bond-based peridynamics: forces straight between points, each by the stretch of its own bond (Silling
- * 2000; Silling and Askari 2005; theory A). */
+ * Bond-based peridynamics: pair forces along bonds, each from the stretch of its own bond (Silling 2000;
+ * Silling and Askari 2005; theory A). */
 #include "pairwise.h"
 #include <math.h>
 #include <stdio.h>
 
 /* ---- one bond ------------------------------------------------------------------------------------------ */
-/* Between unlike points the harmonic mean of their constants, as of two springs in a row. */
+/* Points with different constants c have their harmonic mean, as two springs in series. */
 double pairwise_kappa (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *r)
 {
     size_t j = (size_t) s->node[e];
@@ -18,7 +18,7 @@ double pairwise_kappa (const bond_force *b, size_t i, const point_bonds *s, size
     return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
 }
 
-/* kappa xi x xi, and its negative for the other end. */
+/* Blocks of one bond, N/m: own = kappa xi x xi, other = -own. */
 static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     size_t dim = (size_t) b->dim;
@@ -29,8 +29,8 @@ static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t 
     for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
 }
 
-/* kappa of all bonds of a point, where it has all those of the lattice and shares them with others; else
- * NULL. Forces of finite stretch ask for lengths as well. */
+/* Returns the shared kappa of all bonds of a point that has all bonds of the stencil; else NULL. Also NULL
+ * with finite stretch, which needs the lengths that pairwise_kappa computes. */
 static const double *known_kappas (const bond_force *b, const point_bonds *s)
 {
     const pg_sums *sums = b->problem->sums;
@@ -57,7 +57,8 @@ static inline void pull_of (const bond_force *b, size_t i, const point_bonds *s,
     for (size_t a = 0; a < dim; a++) f[a] *= length > 0 ? kappa * r * r * (length - r) / length : 0;
 }
 
-/* Sum over live bonds of the force on i times 1/2 xi, over V_i: T[a * dim + c] += f_a xi_c. */
+/* Virial stress of point i, Pa: T[a * dim + c] += 1/2 f_a xi_c / V_i over its intact bonds, f the force on
+ * i. */
 static void virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                     const double *d, double *T)
 {
@@ -72,8 +73,8 @@ static void virial (const bond_force *b, size_t i, const point_bonds *s, const u
 }
 
 /* ---- energy of a point --------------------------------------------------------------------------------- */
-/* Half the energy of each live bond: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi + eta| -
- * r)^2. */
+/* Sums half the energy of each intact bond over V_i: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi
+ * + eta| - r)^2. */
 double pairwise_energy_at (const bond_force *b, size_t i, int thread, const double *d)
 {
     size_t dim = (size_t) b->dim;
@@ -98,8 +99,8 @@ double pairwise_energy_at (const bond_force *b, size_t i, int thread, const doub
 }
 
 /* ---- constants ----------------------------------------------------------------------------------------- */
-/* Are the points numbered as the sites of a lattice, and their bonds alike to the bit? Then kappa is found
- * once. Without a point that has all bonds there is nothing to be shared. */
+/* Computes kappa once for all points with all bonds, if points are numbered as the sites of a lattice and
+ * have the same modulus and volume to the bit, and if there is such a point. */
 static pg_status find_kappa (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -120,7 +121,7 @@ done:
     return status;
 }
 
-/* Constants of points; neighbours in the list are often of one material. */
+/* Computes the constants c of all points; a point mostly has the material of the previous one. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -142,7 +143,7 @@ done:
     return status;
 }
 
-/* What create made, and the tiles of the search for dying points. */
+/* Frees what `create` has made, and the tiles of the search for dying points. */
 static void destroy (bond_force *b)
 {
     pairwise *own = (pairwise *) b;
@@ -150,13 +151,13 @@ static void destroy (bond_force *b)
     pairwise_tiles_free (&own->tiles);
 }
 
-/* One modulus for both points. */
+/* Has point k the modulus of point 0? */
 static int alike (const bond_force *b, size_t k)
 {
     return pairwise_of (b)->modulus[k] == pairwise_of (b)->modulus[0];
 }
 
-/* The constant of a material, calibrated or not. */
+/* Writes the constant c of material m, and its calibration. */
 static void words (const bond_force *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
@@ -182,15 +183,15 @@ static const bond_theory theory = { .size = sizeof (pairwise),
                                      .forget = pairwise_tiles_forget,
                                      .words = words };
 
-/* Entry of pg_force_type. */
+/* pg_force_type.create */
 pg_status pairwise_create (void **self, const pg_problem *problem)
 {
     return bond_force_make (self, problem, &theory);
 }
 
 /* ---- what is read from the scene ----------------------------------------------------------------------- */
-/* E is kept; the tangent, wave speeds and the stress of a gradient are those of the material that the bonds
- * make. */
+/* Sets Poisson's ratio of all materials to the one that bonds have, with Young's modulus kept: tangent, wave
+ * speeds and stresses from gradients are then those of the bonds. */
 static void take_poisson (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
     double nu = pg_bond_poisson (p->mode);
@@ -207,7 +208,7 @@ static void take_poisson (pg_problem *p, const pg_scene *scene, const pg_sum_rul
     }
 }
 
-/* Entry of pg_method. */
+/* pg_method.read */
 pg_status pairwise_read (pg_problem *p, const pg_scene *scene)
 {
     return bond_force_read (p, scene, take_poisson);

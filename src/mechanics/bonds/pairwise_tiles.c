@@ -1,36 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points may have reached their limit of energy. sqrt (W_i) is a norm of the relative displacements of
- * a point's bonds (finite stretch: it changes by no more than one), so that since a displacement d0 at which
- * all energies were known
- *     sqrt (W_i (d)) <= sqrt (W_i (d0)) + sqrt (A_i) max_j |delta_j - delta_i|, delta = d - d0, A_i = 1/4
- *         sum_j kappa r^2 / V_i,
- * and bonds that died meanwhile only lower it. Points lie in square tiles wider than any bond: the box of
- *     delta over a tile and those around it
- * bounds the last factor. Points that this does not clear are looked at one by one; when these have cost as
- *     much as a loop, it tells all energies again.
- * What is decided does not depend on any of this. */
+ * Finds points that have reached their limit of energy, without summing all energies in every step. sqrt
+ * (W_i) is a norm of the relative displacements of a point's bonds (finite stretch: it changes by no more
+ * than such a norm). Since a displacement d0 at which all energies were computed
+ *     sqrt (W_i (d)) <= sqrt (W_i (d0)) + sqrt (A_i) max_j |delta_j - delta_i|,
+ *     delta = d - d0,  A_i = 1/4 sum_j kappa r^2 / V_i,
+ * and bonds that broke meanwhile only lower it. Points lie in square tiles wider than any bond: the range of
+ * delta over a tile and the tiles around it bounds the last factor. Points that the bound does not exclude
+ * are computed one by one; when these have cost as much as a loop, all energies are computed again. The
+ * result does not depend on the tiles. */
 #include "pairwise.h"
 #include <math.h>
 #include <string.h>
 
-static const double margin = 1e-6;                     /* of the limit: far more than rounding of any loop */
-/* spacings of a tile; a point alone costs as much as so many in a loop */
+static const double margin = 1e-6;                     /* share of the limit, far above rounding of loops */
+/* Edge of a tile in spacings; how many points in a loop cost as much as one by itself; lanes of box_run. */
 enum { EDGE = 8, DEAR = 3, LANES = 8 };
 
-typedef struct { size_t first, n; } run;               /* points one after the other */
+typedef struct { size_t first, n; } run;               /* n points with consecutive numbers */
 struct pairwise_tiles {
-    int     dim, count[3];
-    size_t  n;                                         /* tiles */
-    size_t *start;  run *run;                          /* runs of each, ascending (n + 1; of all) */
-    double *box;                                       /* low, high of delta (n x 2 dim) */
-    double *known;                                     /* largest sqrt (W / W_c) at d0 (n) */
-    double *gain;                                      /* largest sqrt (A / W_c), 1/m (n) */
-    double *reach;                                     /* gain times width of delta around (n) */
+    int     dim, count[3];                             /* tiles along each axis */
+    size_t  n;                                         /* number of tiles */
+    size_t *start;  run *run;                          /* runs of each tile, ascending (n + 1; start[n]) */
+    double *box;                                       /* least, largest delta of a tile, m (n x 2 dim) */
+    double *known;                                     /* largest sqrt (W / W_c) of a tile at d0 (n) */
+    double *gain;                                      /* largest sqrt (A / W_c) of a tile, 1/m (n) */
+    double *reach;                                     /* gain times range of delta around a tile (n) */
     double *near;                                      /* sqrt (W / W_c) of each point at d0 (points) */
-    size_t *open;                                      /* points that may have reached theirs (n) */
-    double *d0;                                        /* m (ndof) */
-    int     fresh;                                     /* 1: known, near and d0 are there */
-    size_t  spent;                                     /* points looked at one by one since then */
+    size_t *open;                                      /* points of a tile that may be at their limit (n) */
+    double *d0;                                        /* displacement at the last full loop, m (ndof) */
+    int     fresh;                                     /* 1: known, near and d0 are valid */
+    size_t  spent;                                     /* points computed one by one since d0 */
 };
 
 /* Frees *tiles, which may be NULL. */
@@ -46,8 +45,8 @@ void pairwise_tiles_free (pairwise_tiles **tiles)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-/* The longest bond of the body, m: no tile is smaller, so that a point and its neighbours lie in a tile
- * and those around it. */
+/* Returns the length of the longest bond of the body, m. No tile is smaller, so that the neighbours of a
+ * point lie in its tile or in those around it. */
 static double longest_bond (const bond_force *b)
 {
     size_t dim = (size_t) b->dim;
@@ -75,7 +74,8 @@ static size_t tile_of (const pairwise_tiles *t, const pg_cloud *cloud, double ed
 }
 
 typedef struct { size_t run, next; } place;
-/* The next point of a tile, *i; where: { start of the tile, 0 } at first. 0: there are no more. */
+/* Sets *i to the next point of a tile; *where is { t->start[tile], 0 } at first. Returns 0 if there are no
+ * more. */
 static int next_point (const pairwise_tiles *t, size_t tile, place *where, size_t *i)
 {
     while (where->run < t->start[tile + 1] && where->next == t->run[where->run].n)
@@ -85,8 +85,8 @@ static int next_point (const pairwise_tiles *t, size_t tile, place *where, size_
     return 1;
 }
 
-/* Largest sqrt (A / W_c) of the points of a tile, 1/m, with kappa of all their bonds: bonds that die only
- * make it smaller, and it need not follow them. */
+/* Computes `gain` of tiles first .. last - 1: largest sqrt (A / W_c) of their points, 1/m, by all bonds.
+ * Bonds that break only lower it, so that it need not be updated. */
 static void find_gains (void *context, size_t first, size_t last, int thread)
 {
     const bond_force *b = context;
@@ -107,7 +107,7 @@ static void find_gains (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* Runs of points of every tile: neighbours in number that lie in one tile. */
+/* Lists the runs of every tile: points with consecutive numbers that lie in it. */
 static pg_status fill (pairwise_tiles *t, const pg_cloud *cloud, double edge)
 {
     pg_status status = PG_OK;
@@ -128,8 +128,8 @@ done:
     return status;
 }
 
-/* Tiles no smaller than the longest bond, nor so many that empty ones outnumber points (scattered
- * bodies), and what displacements can add to the energies in each. */
+/* Makes tiles no smaller than the longest bond, and not many more than points (where bodies are scattered
+ * most tiles are empty), and computes their gain. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -139,7 +139,7 @@ static pg_status create (bond_force *b)
            most = pow ((double) b->n, 1.0 / b->dim) + 1;
     PG_ALLOC (t, 1);
     t->dim = b->dim, t->n = 1;
-    /* scattered bodies */
+    /* Not more than about b->n tiles, also for scattered bodies. */
     for (int k = 0; k < t->dim; k++) edge = fmax (edge, (cloud->high[k] - cloud->low[k]) / most);
     for (int k = 0; k < t->dim; k++) {
         t->count[k] = 1 + (int) ((cloud->high[k] - cloud->low[k]) / edge);
@@ -161,11 +161,11 @@ done:
     return status;
 }
 
-/* ---- what may have happened ---------------------------------------------------------------------------- */
+/* ---- bounds -------------------------------------------------------------------------------------------- */
 typedef struct { bond_force *b; const double *d; } looking;
 
-/* Extremes of now - then over n numbers, lane by lane: lane l belongs to component l modulo dim, as LANES
- * and LANES - LANES % 3 are whole numbers of points. */
+/* Widens low and high by now - then over n numbers, lane by lane: lane l belongs to component l modulo dim,
+ * as `lanes` numbers are a whole number of points. */
 static void box_run (const double *now, const double *then, size_t n, size_t lanes, double *low, double *high)
 {
     size_t j = 0;
@@ -180,7 +180,7 @@ static void box_run (const double *now, const double *then, size_t n, size_t lan
     }
 }
 
-/* Low and high of delta = d - d0 over each tile of a range. */
+/* Computes the least and largest delta = d - d0 over each of the tiles first .. last - 1. */
 static void box_tiles (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
@@ -203,8 +203,8 @@ static void box_tiles (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Diagonal of the box of delta over a tile and those around it, m: no two points that share a bond have
- * moved against each other by more. */
+/* Returns the diagonal of the range of delta over a tile and those around it, m: no bond that ends in the
+ * tile has changed its relative displacement by more. */
 static double width_around (const pairwise_tiles *t, size_t tile)
 {
     double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY },
@@ -230,14 +230,13 @@ static double width_around (const pairwise_tiles *t, size_t tile)
     return sqrt (square);
 }
 
-/* A point is open when sqrt (W / W_c) at d0 and what may have come since reach 1. */
+/* May a point (or tile) with this sqrt (W / W_c) at d0 have reached its limit since? Then it is open. */
 static int is_open (const pairwise_tiles *t, size_t tile, double at_d0)
 {
     return !(at_d0 + t->reach[tile] < 1 - margin);
 }
 
-/* Which points of each tile may have reached their limit: none, unless the bound of the whole tile says
- * so. */
+/* Counts the open points of each of the tiles first .. last - 1; none if the tile as a whole is not open. */
 static void clear_tiles (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
@@ -254,14 +253,14 @@ static void clear_tiles (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* ---- looking ------------------------------------------------------------------------------------------- */
-/* By the plain sum over its own bonds, whatever the tiles say. */
+/* ---- energies ------------------------------------------------------------------------------------------ */
+/* Has point i reached its limit of energy, by the plain sum over its own bonds? */
 static int dies (const bond_force *b, size_t i, int thread, const double *d)
 {
     return isfinite (b->node.critical[i]) && pairwise_energy_at (b, i, thread, d) >= b->node.critical[i];
 }
 
-/* Open points, by their own bonds. */
+/* Sets `dying` of the open points of tiles first .. last - 1, by their own bonds. */
 static void look_at_open (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
@@ -272,8 +271,9 @@ static void look_at_open (void *context, size_t first, size_t last, int thread)
             w->b->node.dying[i] = is_open (t, k, t->near[i]) && dies (w->b, i, thread, w->d);
 }
 
-/* All energies, from b->density: those near their limit are summed once more by their own bonds, since
- * loops of different instruction sets round differently and what breaks must not. */
+/* Sets known, near and `dying` of tiles first .. last - 1 from the energies of the loop (node.density). Those
+ * near their limit are summed once more by their own bonds, as loops of different instruction sets round
+ * differently. */
 static void look_at_all (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
@@ -292,7 +292,8 @@ static void look_at_all (void *context, size_t first, size_t last, int thread)
 
 void pairwise_tiles_forget (bond_force *b) { if (pairwise_of (b)->tiles) pairwise_of (b)->tiles->fresh = 0; }
 
-/* Only tiles that may have reached a limit since the last full look are opened. */
+/* bond_theory.find_dying: computes open points one by one, or all energies if these are not known or if that
+ * is cheaper. */
 pg_status pairwise_tiles_look (bond_force *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* State-based moduli A (dilatation) and B (deviation), Pa, of every point from its material. */
+/* Sets the moduli A (dilatation) and B (deviation), Pa, of every point from its material. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -19,7 +19,7 @@ done:
     return status;
 }
 
-/* Bonds alone that are at least as stiff: the true blocks reach neighbours of neighbours. */
+/* Blocks of a pair force that is at least as stiff: the true blocks would couple neighbours of neighbours. */
 static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     const double *stiff = b->dilatation->stiff;
@@ -29,7 +29,7 @@ static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t 
     dilatation_pull (b, i, s, e, stiff[i] + stiff[s->node[e]], own, other ? other : spare);
 }
 
-/* Moduli of a material. */
+/* Writes the moduli of material m. */
 static void words (const bond_force *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
@@ -53,7 +53,7 @@ static const bond_theory theory = { .size = sizeof (state_based),
                                      .find_dying = dilatation_dying,
                                      .words = words };
 
-/* Entry of pg_force_type. */
+/* pg_force_type.create */
 pg_status state_based_create (void **self, const pg_problem *problem)
 {
     return bond_force_make (self, problem, &theory);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Micropolar bonds and the energy of the dilatation beside them, (kappa - kappa_b) theta^2 / 2 per volume
- * (theory G3): a loop over beams, which breaks bonds, and a state-based one of the displacements alone with
- * deviation 0, which is told of them. */
+ * (theory G3): a loop over beams, which breaks bonds, and a state-based loop of displacements only with
+ * deviation 0, which gets the broken bonds from it. */
 #include "mechanics/sums/terms/bond_loop.h"
 #include <stdio.h>
 #include <string.h>
 
 typedef struct {
-    pg_sums   plain, bulk;  /* the sums by the rule of each; what they point to is borrowed */
+    pg_sums   plain, bulk;  /* sums with the rules of beams and of dilatation; their arrays are borrowed */
     pg_bond_loop *beams, *volume;
     size_t    n, dim, m;                               /* m: unknowns of a point */
     int       threads;
@@ -18,11 +18,11 @@ typedef struct {
 
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
-    (void) setting;                                    /* either part says it itself */
+    (void) setting;                                    /* each of the two loops refuses by itself */
     return NULL;
 }
 
-/* Each part frees what is its own. */
+/* Frees both loops and the vectors. */
 static void release (void *self)
 {
     both *s = self;
@@ -32,9 +32,9 @@ static void release (void *self)
     pg_free (s);
 }
 
-/* Makes two loops of one setting: for the beams without the dilatation, and for the dilatation without bonds
- * of its own stiffness (deviation 0). Surface factors belong to the bonds: families at the surface have a
- * weighted volume q of their own, by which their dilatation is right already. */
+/* Makes two loops of one setting: for the beams without dilatation, and for the dilatation without deviation.
+ * Surface corrections are for the beams only: at the surface the weighted volume q makes the dilatation
+ * right. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -61,10 +61,11 @@ done:
     return status;
 }
 
-/* Which two loops these are. */
+/* Returns the names of the two loops. */
 static const char *remark (const void *self) { return ((const both *) self)->remark; }
 
-/* Both loops, and the displacements and forces that pass between them: read and written once each. */
+/* Memory traffic of both loops, and of the displacements and forces between them, read and written once
+ * each. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const both *s = self;
@@ -74,7 +75,7 @@ static void bytes (const void *self, double *per_bond, double *per_point)
     *per_bond += bond, *per_point += point + 4 * (double) s->dim * sizeof (double);
 }
 
-/* Both must know the same bonds as alive. */
+/* Updates the intact bonds of both loops. */
 static void update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     both *s = self;
@@ -85,7 +86,7 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 /* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { both *s; const double *d; double *f; } pass;
 
-/* Displacements without the rotations, which dilatation does not read */
+/* Copies the displacements of points first .. last - 1, without rotations, for the dilatation. */
 static void take_points (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -94,7 +95,7 @@ static void take_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) memcpy (s->u + i * s->dim, p->d + i * s->m, s->dim * sizeof *s->u);
 }
 
-/* Forces of dilatation to those of the beams */
+/* Adds the forces of the dilatation on points first .. last - 1 to those of the beams. */
 static void add_points (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -104,14 +105,14 @@ static void add_points (void *context, size_t first, size_t last, int thread)
         for (size_t k = 0; k < s->dim; k++) p->f[i * s->m + k] += s->f[i * s->dim + k];
 }
 
-/* All points, by threads. */
+/* Copies the displacements of all points. */
 static void take (both *s, const double *d)
 {
     pg_parallel (s->threads, s->n, take_points, &(pass){ s, d, NULL });
 }
 
-/* The beams decide what breaks; the dilatation is told of it before it is summed, so that both parts of
- * the force are of the same bonds. */
+/* The loop over beams breaks bonds; the dilatation is updated by these before it is summed, so that both
+ * parts of the force have the same bonds. */
 static pg_status force (void *self, const double *d, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;

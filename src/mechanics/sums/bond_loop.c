@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which loop sums the bonds: the first kind that can, or transforms where these are faster, with the best
- * instructions that this machine has. */
+ * Chooses the loop that sums the bonds: the first kind that can, or transforms where these are faster, with
+ * the best instructions that this machine has. */
 #include "mechanics/sums/terms/bond_loop.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +25,8 @@ static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "av
 
 const char *pg_instructions_name (pg_instructions set) { return set_name[set]; }
 
-/* Asked of the processor when the program runs, so that one program serves all machines. */
+/* Has this processor an instruction set? Found when the program runs, so that one program serves all
+ * machines. */
 int pg_instructions_here (pg_instructions set)
 {
     if (set == PG_SCALAR) return 1;
@@ -39,8 +40,8 @@ int pg_instructions_here (pg_instructions set)
 #endif
 }
 
-/* The instructions asked for, or the best that this machine has. Asked for and missing is a fault:
- * results by other instructions may differ in last digits, and tests compare them. */
+/* Chooses the instruction set by its name; name NULL: the best that this machine has. A named one that is
+ * missing is an error, as others may differ in last digits, and tests compare them. */
 static pg_status choose_instructions (pg_instructions *out, const char *name)
 {
     pg_status status = PG_OK;
@@ -71,9 +72,9 @@ static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_lo
     snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
 }
 
-/* The first kind of loop that is made for the theory (0 bonds alone, 1 state-based, 2 beams, 3 beams and
- * dilatation) and does not refuse; `only`: the one that the scene asks for. The reason of the last
- * refusal is told. */
+/* Chooses the first kind of loop that is made for the theory (0 bond-based, 1 state-based, 2 beams, 3 beams
+ * and dilatation) and does not refuse; `only`: name of the one that the scene asks for. If there is none, the
+ * error has the reason of the last refusal. */
 static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
 {
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL,
@@ -132,7 +133,7 @@ void pg_bond_loop_free (pg_bond_loop **loop)
     *loop = NULL;
 }
 
-/* What follows hands calls on to the kind: callers know one door whatever sums their bonds. */
+/* The functions below pass calls on to the chosen kind of loop. */
 const char *pg_bond_loop_name (const pg_bond_loop *loop) { return loop->name; }
 
 const char *pg_bond_loop_reason (const pg_bond_loop *loop) { return loop->reason; }
@@ -163,8 +164,8 @@ double pg_bond_loop_energy (pg_bond_loop *loop, const double *u)
     return loop->kind->energy (loop->self, u);
 }
 
-/* Both ends of a bond feel opposite forces, so that f . u is a sum over bonds of force times difference of
- * displacement: what is rounded has the size of these products, as in the sweep that sums the energies. */
+/* The ends of a bond have opposite forces, so that f . u is a sum over bonds of force times relative
+ * displacement: rounding errors have the size of these products, as in the loop that sums energies. */
 int pg_bond_loop_halves (const pg_bond_loop *loop) { return loop->linear && loop->kind->apart; }
 
 pg_status pg_bond_loop_energies (pg_bond_loop *loop, const double *u, double *W)

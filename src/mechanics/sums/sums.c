@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A rule and a cloud brought together: sites and stencil of a lattice, calibration, volumes of families for
- * the surface. */
+ * The sums of a rule on a cloud: sites and stencil of a lattice, calibration, volumes of families for surface
+ * corrections. */
 #include "mechanics/sums/terms/sums_private.h"
 #include "perigal/criterion.h"
 #include <math.h>
@@ -8,8 +8,8 @@
 #include <string.h>
 
 /* ---- on a lattice -------------------------------------------------------------------------------------- */
-/* Volume of each point as a share of a cell's, where they are not all whole (cut cells, files with
- * volumes): the weights of lattice loops. NULL where they are all 1, which the loops do without. */
+/* Makes s->share: volume of each point over that of a lattice cell, the weights of lattice loops, if some
+ * differ from 1 (cut cells, files with volumes). NULL: all are 1. */
 static pg_status find_shares (pg_sums *s, double cell)
 {
     pg_status status = PG_OK;
@@ -29,9 +29,9 @@ static void check_order (pg_sums *s)
     for (size_t i = 1; i < s->cloud->n; i++) s->ordered &= s->sites.site[i - 1] < s->sites.site[i];
 }
 
-/* On a lattice: the stencil; the factor that makes the energy of uniform strain exact for a point inside
- * (calibration); how the energy of a straight crack along the axes compares with theory at the same
- * critical stretch (toughness); the volume of a whole family, m^3. */
+/* Computes on a lattice: the stencil; the factor that makes the energy of uniform strain exact for an inner
+ * point (calibration); the energy of a straight crack along the axes over that of theory at the same critical
+ * stretch (toughness); the volume of a whole family, m^3. */
 static pg_status from_lattice (pg_sums *s)
 {
     pg_status status = PG_OK;
@@ -53,10 +53,10 @@ done:
     return status;
 }
 
-/* Energy of a straight cut along the lattice under state-based theory, for step and critical stretch 1.
- * I_l: the part of the weighted volume q of a point l - 1/2 layers from the cut that lies beyond it.
- * Points lose A d (I_l / q)^2 by their dilatation and B I_l / q by the rest, and all layers on one side
- * add up: G = h s0^2 sum_l [A d (I_l / q)^2 + B I_l / q]. */
+/* Energy (Pa) of a straight cut across `axis` of the lattice by state-based theory, for step and critical
+ * stretch 1. I_l: the part of the weighted volume q of a point l - 1/2 layers from the cut that lies beyond
+ * it. Points lose A d (I_l / q)^2 by their dilatation and B I_l / q by the rest, summed over all layers on
+ * one side: G = h s0^2 sum_l [A d (I_l / q)^2 + B I_l / q]. */
 static double cut_energy (const pg_stencil *t, double A, double B, int axis)
 {
     double q = 0, sum = 0, inside = 1;
@@ -70,9 +70,9 @@ static double cut_energy (const pg_stencil *t, double A, double B, int axis)
     return sum;
 }
 
-/* How the energy of a crack along the lattice compares with that of theory at the same critical stretch:
- * 1 where nothing is known. State-based bonds share their energy between dilatation and deviation, so
- * that the ratio depends on nu. */
+/* Energy of a crack along the lattice over that of theory at the same critical stretch; 1 where it is not
+ * known. The energy of state-based bonds comes from dilatation and deviation, so that the ratio depends on
+ * nu. */
 double pg_sums_toughness (const pg_sums *sums, double E, double nu)
 {
     const pg_sum_rule *rule = &sums->rule;
@@ -104,7 +104,8 @@ double pg_beam_cut_dilatation (const pg_sums *sums, double dilation)
 
 /* ---- without a lattice --------------------------------------------------------------------------------- */
 
-/* Without a lattice calibration and full family volume are medians over the points whose family is whole. */
+/* Computes calibration and full family volume without a lattice: medians over the points with whole
+ * families. */
 static pg_status from_cloud (pg_sums *s)
 {
     pg_status status = PG_OK;
@@ -130,7 +131,7 @@ static pg_status from_cloud (pg_sums *s)
     if (s->rule.calibrate) s->calibration = pg_sums_whole (&s->rule, cloud->dim) / middle;
     if (s->rule.surface != PG_SURFACE_NONE) {
         for (size_t i = 0; i < n; i++) volume[i] /= s->full;
-        PG_TRY (pg_subdomain_exchange (cloud->subdomain, 1, volume));  /* ghosts do not see all neighbours */
+        PG_TRY (pg_subdomain_exchange (cloud->subdomain, 1, volume));  /* ghosts lack neighbours */
         s->family_volume = volume;
         volume = NULL;
     }
@@ -141,8 +142,8 @@ done:
     return status;
 }
 
-/* A rule brought together with the points at hand. The cloud is borrowed; a lattice, or NULL, says which
- * steps the points were made with. */
+/* Makes the sums of a rule on a cloud, which is borrowed. lattice: with which steps the points were made, or
+ * NULL. */
 pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud,
                           const pg_lattice *lattice)
 {
@@ -164,7 +165,7 @@ done:
     return status;
 }
 
-/* NULL inside is allowed. */
+/* Frees *sums, which may be NULL or made in part. */
 void pg_sums_free (pg_sums **sums)
 {
     pg_sums *s = *sums;

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * beam_kernel.h: loops over micropolar bonds of the blocks of block.h (private, included by block_kernel.h
- * once per instruction set; theory G2). Of a live bond, q = length theta, lever = 1 / (2 length): w = eta -
- * lever (q_i + q_j) x xi, f = kt w + g (xi.w) xi, m = lever xi x f + kb (q_j - q_i)_perp. What is seen from
- * the other end has the opposite sign or the same, bit by bit. */
+ * once per instruction set; theory G2). Force f and moment m of an intact bond, with q = length theta and
+ * lever = 1 / (2 length): w = eta - lever (q_i + q_j) x xi, f = kt w + g (xi.w) xi, m = lever xi x f + kb
+ * (q_j - q_i)_perp. From the other end each term has the opposite sign or the same, bit by bit. */
 
 #define BEAM_VECS(dim) ((dim) == 2 && LANES > 2 ? 2 : 1)
 #define POSITIVE(v) ((vec) ((__typeof__ ((v) > (vec) { 0 })) (v) & ((v) > (vec) { 0 })))
 #define LARGER(a, b) \
     ((vec) (((__typeof__ ((a) > (b))) (a) & ((a) > (b))) | ((__typeof__ ((a) > (b))) (b) & ~((a) > (b)))))
 
-/* Motion of one bond at `at` places of both ends: w = eta - lever (q_i + q_j) x xi, the relative
- * displacement less what a rigid turn of the bond about its middle with the mean rotation of its ends
- * would give it, m; turn = q_j - q_i, by how much the ends turn against each other, times the length, m.
- * jump: padded places from the own end to the other one; t: the numbers of the bond (PG_TERMS). */
+/* Motion of bond t (PG_TERMS numbers) at LANES points from place `at` of the padded arrays on; jump: places
+ * to their neighbours. w = eta - lever (q_i + q_j) x xi, the relative displacement less that of a rigid
+ * rotation of the bond with the mean rotation of its ends, m; turn = q_j - q_i, relative rotation of the ends
+ * times the length, m. */
 INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int dim, const double *t, vec *w,
                          vec *turn)
 {
@@ -36,7 +36,7 @@ INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int
     }
 }
 
-/* xi . v of n components, m^2: what of v lies along the bond, times its length. */
+/* Returns xi . v of n components, m^2. */
 INLINE vec beam_along (int n, const double *t, const vec *v)
 {
     vec sum = ALL (t[PG_AT_XI]) * v[0];
@@ -44,17 +44,17 @@ INLINE vec beam_along (int n, const double *t, const vec *v)
     return sum;
 }
 
-/* Takes from `turn` what is along the bond: a bond has no stiffness against twist, only against bending. */
+/* Removes the component of `turn` along the bond: bonds have stiffness against bending, not against twist. */
 INLINE void beam_across (const double *t, vec *turn)
 {
     vec twist = beam_along (3, t, turn) * ALL (t[PG_AT_BEAM_INVERSE]);
     UNROLL for (int k = 0; k < 3; k++) turn[k] = vec_fuse (-twist, ALL (t[PG_AT_XI + k]), turn[k]);
 }
 
-/* Forces and moments on the points of one stride of block k, `stride` being its first site. The loop runs
- * over bonds outside and over sites in the lanes inside, so that all numbers of a bond are read once for
- * the whole stride. out: dim forces, then the moments over the length, each PG_BLOCK sites apart, N.
- * weighted: every sum is times the weights p of both ends (partial volumes, surface correction). */
+/* Forces and moments on the points of one stride of block k, `stride` being its first site. The outer loop
+ * runs over bonds, lanes are sites, so that the numbers of a bond are read once for the whole stride. out:
+ * dim forces, then moments over the length, each PG_BLOCK numbers apart, N. weighted: sums are multiplied by
+ * the weights p of both ends (shares of volumes, surface correction). */
 INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim, int weighted, double *out)
 {
     const int vecs = BEAM_VECS (dim), turns = dim == 2 ? 1 : 3;
@@ -70,8 +70,7 @@ INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim,
         const vec x = ALL (t[PG_AT_XI]), y = ALL (t[PG_AT_XI + 1]), z = ALL (t[PG_AT_XI + 2]);
         UNROLL for (int v = 0; v < vecs; v++) {
             const size_t at = base + (size_t) (v * LANES);
-            /* Dead bonds lose their stiffness, not their motion: lanes without a point hold zeros and add
-             * nothing. */
+            /* Broken bonds get zero stiffness; lanes without a point have zeros and add nothing. */
             const uint32_t live = alive[j] >> (stride + v * LANES);
             vec w[3], turn[3], f[3], kt = ALL (t[PG_AT_KT]), kb = ALL (t[PG_AT_KB]), g = ALL (t[PG_AT_KG]);
             vec_keep (kt, live);
@@ -107,7 +106,7 @@ INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim,
     }
 }
 
-/* All blocks of a range: strides that have no point are left out, and their part of `out` is not read. */
+/* Forces and moments of the blocks first .. last - 1: strides without points are left out. */
 INLINE void beam_force_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int width = BEAM_VECS (dim) * LANES, m = dim == 2 ? 3 : 6;
@@ -125,9 +124,9 @@ INLINE void beam_force_loop (const pg_block_job *job, size_t first, size_t last,
     }
 }
 
-/* How much of its limit a bond has used up, squared: (s / s0)^2 for a stretch s > 0, (gamma / gamma0)^2
- * and (kappa / kappa0)^2, the largest of the three (job->single) or their sum (Chen 2022). A bond breaks
- * where this reaches 1; 0 where it is dead or may not break. */
+/* Squared utilisation of bond j at LANES points: the largest (job->single) or the sum (Chen 2022) of (s /
+ * s0)^2 for a stretch s > 0, (gamma / gamma0)^2 and (kappa / kappa0)^2. A bond breaks where it reaches 1; 0
+ * where the bond is broken or may not break (bits `live`). */
 INLINE vec beam_share (const pg_block_job *job, size_t at, size_t j, int dim, uint32_t live)
 {
     const double *t = job->term + j * PG_TERMS;
@@ -153,8 +152,8 @@ INLINE vec beam_share (const pg_block_job *job, size_t at, size_t j, int dim, ui
     return all;
 }
 
-/* Sets job->hit for blocks in which a bond is at its limit. Few blocks are, so that this loop notes no
- * bonds: beam_over_loop is asked for these blocks alone. */
+/* Sets job->hit for blocks with a bond at its limit. As these are few, bonds are not noted here, but by
+ * beam_over_loop for these blocks only. */
 INLINE void beam_look_loop (const pg_block_job *job, size_t first, size_t last, int dim)
 {
     for (size_t k = first; k < last; k++) {
@@ -169,7 +168,8 @@ INLINE void beam_look_loop (const pg_block_job *job, size_t first, size_t last, 
     }
 }
 
-/* Which bonds of a block these are: one bit per site and bond in job->over, as in job->alive. */
+/* Notes which bonds of blocks first .. last - 1 are at their limit: a bit per site and bond in job->over, as
+ * in job->alive. */
 INLINE void beam_over_loop (const pg_block_job *job, size_t first, size_t last, int dim)
 {
     double lane[LANES];
@@ -186,7 +186,7 @@ INLINE void beam_over_loop (const pg_block_job *job, size_t first, size_t last, 
 }
 
 /* Twice the energy of the bonds of every point, J: kn s^2 r^2 + kt gamma^2 r^2 + kb turn^2, written with
- * g = (kn - kt) / r^2 as kt w.w + g (xi.w)^2 + kb turn.turn. Each bond is met from both ends, so that the
+ * g = (kn - kt) / r^2 as kt w.w + g (xi.w)^2 + kb turn.turn. Each bond is summed from both ends, so that the
  * sum over all blocks is four times the energy of the body. job->energy: sum of a block, in the order of
  * its lanes; job->energies, where it is wanted: that of each point. */
 INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
@@ -225,8 +225,8 @@ INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last
     }
 }
 
-/* One function for each dimension and for bonds with and without weights: the compiler sees both as
- * constants and leaves no question in the loops. */
+/* One function for each dimension, and for bonds with and without weights: both are constants for the
+ * compiler, so that loops have no branches on them. */
 #define BEAM(D, W) \
     static TARGET void beam_force_##D##W (const pg_block_job *job, size_t first, size_t last) \
     { \

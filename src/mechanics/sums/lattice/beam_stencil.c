@@ -1,29 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds of points on a lattice: the blocks and bits of stencil_loop.c with rotations beside
- * displacements. Breaking: blocks are looked through for bonds at their limit, which die before the forces
- * are summed. theory G2. */
+ * Micropolar bonds of points on a lattice: the blocks and alive bits of stencil_loop.c with rotations beside
+ * displacements. Bonds at their limit are found and broken before the forces are summed. theory G2. */
 #include "mechanics/sums/terms/beam.h"
 #include "stencil_loop.h"
 #include <math.h>
 #include <string.h>
 
 typedef struct {
-    stencil  base;                                     /* first: loops over blocks see it alone */
+    stencil  base;                                     /* first, as loops over blocks take a stencil */
     pg_beam_law law;
     int      m;                                        /* unknowns of a point */
     double  *turn;                                     /* padded rotations times length, m */
-    uint32_t *over;
+    uint32_t *over;                                    /* bits of bonds at their limit (pg_block_job.over) */
 } beams;
 
-/* Are the values of the points not all the same? */
+/* Are the values of the n points not all the same? */
 static int differs (const double *a, size_t n)
 {
     for (size_t i = 1; a && i < n; i++) if (a[i] != a[0]) return 1;
     return 0;
 }
 
-/* Why these bonds cannot be summed by a stencil, NULL if they can: one number per bond of the stencil
- * needs the same moduli and limits everywhere. */
+/* Returns why these bonds cannot be summed by a stencil, NULL if they can: a stencil has the same moduli and
+ * limits everywhere. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
     const pg_beam_law *law = setting->beams;
@@ -45,16 +44,16 @@ static void release (void *self)
     pg_stencil_loop_free (s);
 }
 
-/* 1 / (unit limit^2): with which factor a squared measure becomes a squared share of its limit; 0 where
- * there is no limit. `unit` turns the measure of the loops (m^2) into one without a unit. */
+/* Returns 1 / (unit limit^2), the factor from a squared measure of the loops to its squared utilisation; 0 if
+ * there is no limit. unit: the measure squared over the strain squared, m^2 or 1. */
 static double share (double limit, double unit)
 {
     return limit > 0 && isfinite (limit) ? 1 / (unit * limit * limit) : 0;
 }
 
-/* The numbers of each bond of the stencil, the same for all points: stiffnesses kt, g = (kn - kt) / r^2
- * and kb, and the shares of the limits that a unit of the loops' measures is. The loops know w_perp in m,
- * hence r^2 in the share of the shear, and q in m, hence length^2 in those of the bending. */
+/* Sets the numbers of each bond of the stencil, the same for all points: stiffnesses kt, g = (kn - kt) / r^2
+ * and kb, and the factors of `share`. Shear is measured by w_perp in m, hence r^2 in its factor, bending by q
+ * in m, hence length^2. */
 static void set_terms (beams *s)
 {
     stencil *b = &s->base;
@@ -75,8 +74,8 @@ static void set_terms (beams *s)
     }
 }
 
-/* Padded rotations beside the padded displacements of the stencil; in a plane all three pointers are the
- * one rotation about z, so that loops need not ask. */
+/* Makes a stencil with padded rotations; in 2D all three pointers job.q are the one rotation about z, so that
+ * loops need no branches. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -97,7 +96,7 @@ done:
     return status;
 }
 
-/* A loop reads and writes m numbers of a point where bonds without rotations read dim. */
+/* Memory traffic of a sum: m numbers per point instead of dim. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const beams *s = self;
@@ -108,7 +107,7 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 /* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { beams *s; const double *u; } pass;
 
-/* Displacements and rotations of some blocks to their padded places */
+/* Copies displacements and rotations of blocks first .. last - 1 to their padded places. */
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -124,13 +123,13 @@ static void spread_blocks (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* All blocks, by threads. */
+/* Copies displacements and rotations of all blocks to their padded places. */
 static void spread (beams *s, const double *u)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.nblock, spread_blocks, &(pass) { s, u });
 }
 
-/* The bonds of a block that beam_over found at their limit die and are noted. */
+/* Breaks the bonds of block k that are marked in job.over, and appends them to found. */
 static pg_status kill (stencil *b, size_t k, pg_changes *found)
 {
     pg_status status = PG_OK;
@@ -148,7 +147,8 @@ done:
     return status;
 }
 
-/* Looks through some blocks; only in those that have a bond at its limit each bond is asked. */
+/* Breaks the bonds at their limit of blocks first .. last - 1; single bonds are checked only in blocks with a
+ * hit. */
 static void break_blocks (void *context, size_t first, size_t last, int thread)
 {
     beams *s = context;
@@ -163,7 +163,7 @@ static void break_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Kills the bonds at their limit before forces are summed, so that a bond that breaks pulls no more. */
+/* Breaks the bonds at their limit before forces are summed, so that they have no force any more. */
 static pg_status break_bonds (beams *s, pg_changes *broken)
 {
     stencil *b = &s->base;
@@ -172,8 +172,8 @@ static pg_status break_bonds (beams *s, pg_changes *broken)
     return pg_changes_collect (broken, threads, b->found, b->failed);
 }
 
-/* Forces and moments at the unknowns u (n x m); with `broken` bonds over their limit die first and are
- * appended to it. */
+/* Forces and moments f, N (n x m), at the unknowns u (n x m, m); unless broken is NULL, bonds over their
+ * limit are broken first and appended to it. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -187,12 +187,12 @@ done:
     return status;
 }
 
-/* Energy of the body, J; W: that of each point, four times, unless NULL. */
+/* Returns the energy of the body, J; W: four times the energy of each point, or NULL. */
 static double sum_energies (beams *s, const double *u, double *W)
 {
     stencil *b = &s->base;
     spread (s, u);
-    /* half of w, and half of it to each end */
+    /* The loops sum twice the energy of each bond, from both ends. */
     return pg_stencil_loop_stored (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], W) / 4;
 }
 

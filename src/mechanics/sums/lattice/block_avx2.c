@@ -13,8 +13,8 @@ enum { LANES = 4 };
 typedef double vec __attribute__ ((vector_size (32)));
 typedef vec hits;
 
-/* A mask of four lanes for each of the 16 sets of bits: AVX2 has no registers of bits, and this table is
- * read faster than a mask is made. */
+/* Masks of four lanes for each of the 16 sets of bits: AVX2 has no mask registers, and reading this table is
+ * faster than computing a mask. */
 #define LANE(k, bit) ((k) >> (bit) & 1 ? -1 : 0)
 #define LANE4(k) { LANE (k, 0), LANE (k, 1), LANE (k, 2), LANE (k, 3) }
 static const long long lanes[16][4] __attribute__ ((aligned (32))) = {
@@ -23,8 +23,8 @@ static const long long lanes[16][4] __attribute__ ((aligned (32))) = {
 #define OF(bits) _mm256_castsi256_pd (_mm256_load_si256 ((const __m256i *) lanes[(bits) & 15]))
 #define OVER(v, limit) _mm256_cmp_pd ((__m256d) (v), (__m256d) (limit), _CMP_GE_OQ)
 
-/* What block_kernel.h asks for. Products and sums are fused as the instructions have them, comparisons
- * are quiet: NAN is over no limit. */
+/* Operations that block_kernel.h needs. Products and sums are fused; comparisons are quiet: NAN is over no
+ * limit. */
 #define FUSED 1
 #define vec_least(a, b) ((vec) _mm256_min_pd ((__m256d) (a), (__m256d) (b)))
 #define vec_most(a, b) ((vec) _mm256_max_pd ((__m256d) (a), (__m256d) (b)))
@@ -47,7 +47,7 @@ static inline __attribute__ ((always_inline)) TARGET double vec_highest (vec v)
     return _mm_cvtsd_f64 (_mm_max_sd (half, _mm_unpackhi_pd (half, half)));
 }
 
-/* out = a0 b0 a1 b1 ...: components x and y of LANES points, as vectors of forces have them. */
+/* out = a0 b0 a1 b1 ...: interleaves components x and y of LANES points, as vectors of forces have them. */
 static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec a, vec b)
 {
     __m256d low = _mm256_unpacklo_pd ((__m256d) a, (__m256d) b),
@@ -56,7 +56,7 @@ static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec 
     _mm256_storeu_pd (out + 4, _mm256_permute2f128_pd (low, high, 0x31));
 }
 
-/* a0 b0 a1 b1 ... = in: components x and y of LANES points, each to a vector of its own. */
+/* in = a0 b0 a1 b1 ...: separates components x and y of LANES points into two vectors. */
 static inline __attribute__ ((always_inline)) TARGET void unzip (const double *in, vec *a, vec *b)
 {
     __m256d first = _mm256_loadu_pd (in), last = _mm256_loadu_pd (in + 4);

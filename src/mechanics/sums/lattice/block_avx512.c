@@ -13,8 +13,8 @@ enum { LANES = 8 };
 typedef double vec __attribute__ ((vector_size (64)));
 typedef unsigned hits;
 
-/* What block_kernel.h asks for. Lanes are kept and compared by registers of bits, so that a hit is a bit
- * and no vector. */
+/* Operations that block_kernel.h needs. Lanes are masked and compared by mask registers, so that hits are
+ * bits. */
 #define FUSED 1
 #define vec_fuse(a, b, c) ((vec) _mm512_fmadd_pd ((__m512d) (a), (__m512d) (b), (__m512d) (c)))
 #define vec_least(a, b) ((vec) _mm512_min_pd ((__m512d) (a), (__m512d) (b)))
@@ -29,7 +29,7 @@ typedef unsigned hits;
     ((hits) |= _mm512_mask_cmp_pd_mask ((__mmask8) (bits), (__m512d) (v), (__m512d) (limit), _CMP_GE_OQ))
 #define HITS_ANY(hits) ((hits) != 0)
 
-/* out = a0 b0 a1 b1 ...: components x and y of LANES points, as vectors of forces have them. */
+/* out = a0 b0 a1 b1 ...: interleaves components x and y of LANES points, as vectors of forces have them. */
 static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec a, vec b)
 {
     const __m512i low = _mm512_setr_epi64 (0, 8, 1, 9, 2, 10, 3, 11),
@@ -38,7 +38,7 @@ static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec 
     _mm512_storeu_pd (out + 8, _mm512_permutex2var_pd ((__m512d) a, high, (__m512d) b));
 }
 
-/* a0 b0 a1 b1 ... = in: components x and y of LANES points, each to a vector of its own. */
+/* in = a0 b0 a1 b1 ...: separates components x and y of LANES points into two vectors. */
 static inline __attribute__ ((always_inline)) TARGET void unzip (const double *in, vec *a, vec *b)
 {
     const __m512i even = _mm512_setr_epi64 (0, 2, 4, 6, 8, 10, 12, 14),

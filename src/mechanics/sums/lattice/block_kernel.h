@@ -20,8 +20,9 @@ typedef double vec_loose __attribute__ ((vector_size (8 * LANES), aligned (8), m
 #define STORE(p, v) (*(vec_loose *) (p) = (v))
 #define ALL(x) ((x) - (vec) { 0 })                     /* x in every lane (x - 0: keeps -0) */
 
-/* Sums of a block, component by component (PG_BLOCK apart), to f of its points (points x dim). A block
- * without gaps whose points have consecutive numbers is stored as a run, the others point by point. */
+/* Copies the sums of a block, component by component (PG_BLOCK apart), to job->f of its points (points x
+ * dim). A block without gaps whose points have consecutive numbers is stored in one piece, others point by
+ * point. */
 INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const double *out)
 {
     if (b->present == UINT32_MAX && b->first >= 0) {
@@ -42,8 +43,8 @@ INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const d
     }
 }
 
-/* Displacements u (points x dim) of some blocks to the padded arrays of the components. Places without a
- * point stay 0. */
+/* Copies displacements u (points x dim) of blocks first .. last - 1 to the padded arrays job->u of the
+ * components. Places without a point stay 0. */
 static TARGET void spread (const pg_block_job *job, const double *u, size_t first, size_t last)
 {
     const int dim = job->dim;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Loops of block.h with what every machine has: pairs of doubles, which compilers map to the registers that
- * there are. */
+ * Loops of block.h without special instructions: pairs of doubles, which compilers map to the registers of
+ * the machine. */
 #include "block.h"
 #include "fft_rows.h"
 #include <math.h>

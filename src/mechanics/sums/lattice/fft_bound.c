@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a bond may be at its limit. From site i to site i + n, u changes by what it changes along a path of
- * n_1 steps along the first axis, n_2 along the second, ... With G_ab the changes of u_b over a step h_a, as
- * they occur in the box about a block and its bonds, the stretch of a bond of direction e is at most sum_a
- * max G_aa e_a^2 + sum_{a<b} |e_a e_b| C_ab, C_ab = the larger of max G_ab + max G_ba and -(min G_ab + min
- * G_ba); of a rotation, G_ab = -G_ba, nothing is left. Where a site of the box has no point nothing is known:
- * such blocks are looked at always. */
+ * Finds blocks in which a bond may be at its limit. Between sites i and i + n, u changes by the sum of its
+ * changes along a path of n_1 steps along the first axis, n_2 along the second, ... With G_ab the changes of
+ * u_b over a step h_a, divided by it, in the box around a block and its bonds, the stretch of a bond of
+ * direction e is at most sum_a max G_aa e_a^2 + sum_{a<b} |e_a e_b| C_ab, C_ab = the larger of max G_ab + max
+ * G_ba and -(min G_ab + min G_ba); a rotation, G_ab = -G_ba, adds nothing. Blocks with a site without a point
+ * in their box (ragged) have no bound and are always checked. */
 #include "fft_convolution.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Extremes kept: of each a, b the largest G_ab, for a != b also the largest -G_ab. */
+/* Returns how many extremes are kept of a box: for each a, b the largest G_ab, for a != b also the largest
+ * -G_ab. */
 static int extremes (int dim) { return dim + 2 * dim * (dim - 1); }
 
 enum { STRIP = 4 };                                    /* rows taken together */
 typedef struct { transformer *t; const double *from; double *to; int axis; } slider;
 
-/* Sites along an axis; strips of STRIP rows along y. */
+/* Number of sites along an axis. strips_along: number of strips, which are STRIP rows, along y. */
 static size_t rows_along (const transformer *t, int axis)
 {
     return (size_t) t->s->setting.sums->sites.count[axis];
 }
 static size_t strips_along (const transformer *t) { return (rows_along (t, 1) + STRIP - 1) / STRIP; }
 
-/* ---- what does not change ------------------------------------------------------------------------------ */
-/* Blocks whose box has a site without a point: nothing bounds u between there and its neighbours. First
- * the rows, whose halo along x is looked at once, then the rows about each block. */
+/* ---- ragged blocks ------------------------------------------------------------------------------------- */
+/* Marks the blocks whose box has a site without a point (t->ragged): first each row with its halo along x,
+ * then the rows around each block. */
 static pg_status find_ragged (transformer *t)
 {
     pg_status status = PG_OK;
@@ -53,7 +54,7 @@ done:
     return status;
 }
 
-/* Two copies of all extremes, as the maximum along each axis is written beside what it is taken from. */
+/* Allocates two copies of all extremes, as maxima along an axis are written to one copy from the other. */
 pg_status pg_fft_bound_create (transformer *t)
 {
     pg_status status = PG_OK;
@@ -66,8 +67,8 @@ done:
 }
 
 /* ---- extremes ------------------------------------------------------------------------------------------ */
-/* Which of the 32 sites of a block and their neighbours along an axis both have points, one bit each; the
- * last site of a block has its neighbour in the next one. */
+/* Returns a bit for each of the 32 sites of block j of a row: 1: it and its next site along the axis both
+ * have points. (The last site of a block has its next site in the next block.) */
 static uint32_t pairs_of (const transformer *t, size_t row, size_t j, int axis)
 {
     const stencil *s = t->s;
@@ -84,9 +85,9 @@ static uint32_t pairs_of (const transformer *t, size_t row, size_t j, int axis)
     return next >= 0 ? b->present & s->block[next].present : 0;
 }
 
-/* The extremes of the changes G_ab of the displacement over one step, for each strip: the blocks of STRIP
- * rows that follow each other along y. Strips are numbered as blocks are. Largest G_ab, and for a != b
- * also largest -G_ab, per step of the lattice: no unit. */
+/* Computes the extremes of G_ab of strips first .. last - 1: the blocks of STRIP consecutive rows along y.
+ * Largest G_ab, and for a != b also largest -G_ab, changes of u over a lattice step divided by the step
+ * (1). */
 static void edges_of_strips (void *context, size_t first, size_t last, int thread)
 {
     const slider *g = context;
@@ -116,11 +117,11 @@ static void edges_of_strips (void *context, size_t first, size_t last, int threa
     }
 }
 
-/* fmax without its care for NAN, which the compiler turns into one instruction. */
+/* fmax without handling of NAN, which the compiler makes one instruction of. */
 static double larger (double a, double b) { return a > b ? a : b; }
 
-/* The largest of the strips within reach along one axis; after all axes each strip knows the extremes in
- * the box about it. */
+/* Takes the largest extremes of all strips within reach along one axis; after all axes each strip has the
+ * extremes of the box around it. */
 static void slide_strips (void *context, size_t first, size_t last, int thread)
 {
     const slider *g = context;
@@ -153,15 +154,15 @@ static void slide_strips (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* The largest stretch that such extremes allow (value: one every `apart`): the largest eigenvalue of the
- * symmetric matrix of G_aa and C_ab / 2 in a plane, its bound by Gershgorin's circles in space; and a
- * little for rounding. */
+/* Returns the largest stretch that extremes allow (value: one every `apart` numbers): the largest eigenvalue
+ * of the symmetric matrix of G_aa and C_ab / 2 in 2D, its bound by Gershgorin's circles in 3D, plus a margin
+ * for rounding. */
 static double most_stretch (int dim, const double *value, size_t apart)
 {
     double G[3][3], minus[3][3], C[3][3] = { { 0 } }, size = 0, most = -INFINITY;
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) {
-            /* none: one site thick, no bond along a */
+            /* infinite: the lattice is one site thick, so that no bond runs along axis a */
             G[a][b] = isinf (*value) ? 0 : *value, value += apart;
             if (a != b) minus[a][b] = isinf (*value) ? 0 : *value, value += apart;
             size = larger (size, fabs (G[a][b])), size = a != b ? larger (size, fabs (minus[a][b])) : size;
@@ -178,7 +179,7 @@ static double most_stretch (int dim, const double *value, size_t apart)
 
 typedef struct { transformer *t; const double *from; double limit; } judge;
 
-/* NAN counts as risky, hence the negation. */
+/* Sets `risky` of the blocks of strips first .. last - 1. NAN counts as risky, hence the negation. */
 static void judge_strips (void *context, size_t first, size_t last, int thread)
 {
     const judge *g = context;
@@ -189,9 +190,9 @@ static void judge_strips (void *context, size_t first, size_t last, int thread)
         t->risky[k] = !(most_stretch (t->dim, g->from + k, all) < g->limit);
 }
 
-/* Blocks that may have a bond at its limit, and those with cut bonds: written to list, ascending; returns
- * how many. Most steps of a run are far from any limit: then the extremes of the whole body say so at
- * once, and no box is looked at. */
+/* Lists, ascending, the blocks that may have a bond at its limit, and those with broken bonds; returns how
+ * many. In most steps the body is far from any limit: then the extremes of the whole body exclude it, and no
+ * box is computed. */
 size_t pg_fft_bound_suspects (transformer *t, double limit, int *list)
 {
     const stencil *s = t->s;

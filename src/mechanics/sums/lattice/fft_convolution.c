@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sweep by transforms: fft_convolution.h says how. */
+ * Loop over bonds by fast Fourier transforms, as described in fft_convolution.h. */
 #include "fft_convolution.h"
 #include "mechanics/sums/terms/sums_private.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Why transforms cannot sum these bonds, NULL if they can: what a stencil refuses, and finite stretch, as
- * a convolution is linear in u. */
+/* Returns why transforms cannot sum these bonds, NULL if they can: the reasons of stencils, and finite
+ * stretch, as a convolution is linear in u. */
 static const char *fft_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "finite stretch is not linear in the displacement";
@@ -28,9 +28,9 @@ static void fft_free (void *self)
     pg_free (t);
 }
 
-/* ---- what follows from the bits ------------------------------------------------------------------------ */
-/* Weight chi of point i at its place, 0 once no bond of it lives: such a point takes part in no sum, so
- * that a body of debris does not force every block about it to be summed bond by bond. */
+/* ---- data that depend on the alive bits ---------------------------------------------------------------- */
+/* Sets the weight chi of point i at its place, 0 if all its bonds are broken: such a point takes part in no
+ * sum, so that blocks around debris need not be summed bond by bond. */
 static void weigh_point (transformer *t, size_t i)
 {
     const stencil *s = t->s;
@@ -42,8 +42,8 @@ static void weigh_point (transformer *t, size_t i)
     t->chi[place] = any >> bit & 1 ? (s->p ? s->p[place] : 1) : 0;
 }
 
-/* Sums of K_ab and K_ab xi_c over the neighbours' weights: what D and the third moments of a point with
- * missing neighbours are. `terms` is a constant in each call, so that the inner loop is unrolled. */
+/* Sums K_ab and K_ab xi_c times the neighbours' weights: D and the third moments of a point with missing
+ * neighbours. `terms` is a constant in each call, so that the inner loop is unrolled. */
 static inline __attribute__ ((always_inline)) void sum_terms (const transformer *t, const double *chi,
                                                               const size_t terms, double *sum)
 {
@@ -54,9 +54,9 @@ static inline __attribute__ ((always_inline)) void sum_terms (const transformer 
     }
 }
 
-/* D_ab = sum_j K_ab chi_j of point i, the factor of its own displacement. A point whose neighbours all
- * weigh 1 has the sums of the whole stencil; of any other one they are summed anew, and its third moments
- * kept, by which the uniform strain that was taken off is put back. */
+/* Sets D_ab = sum_j K_ab chi_j of point i, the factor of its own displacement, N/m. If all its neighbours
+ * have weight 1 it is that of the whole stencil; else it is summed, and the third moments too, by which
+ * forces of the uniform strain that was subtracted are added back. */
 static void sum_D (transformer *t, size_t i)
 {
     const stencil *s = t->s;
@@ -77,8 +77,8 @@ static void sum_D (transformer *t, size_t i)
     for (int p = 0; p < t->pairs; p++) t->D[(size_t) p * all + at] = sum[p];
 }
 
-/* A block is cut where a dead bond joins two points that both still take part: the convolution would sum
- * it. A dead bond of a point without weight does no harm. */
+/* Sets cut[k]: a broken bond joins two points with weight, which the convolution would sum. (Broken bonds of
+ * points without weight do no harm.) */
 static void judge_block (transformer *t, size_t k)
 {
     const stencil *s = t->s;
@@ -94,7 +94,7 @@ static void judge_block (transformer *t, size_t k)
         }
 }
 
-/* All points or blocks of a range, for pg_parallel. */
+/* weigh_point for points first .. last - 1; the functions below: sum_D, and judge_block for blocks. */
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -113,14 +113,15 @@ static void judge_blocks (void *context, size_t first, size_t last, int thread)
     for (size_t k = first; k < last; k++) judge_block (context, k);
 }
 
-/* Points without a live bond, for reports. */
+/* Counts the points all of whose bonds are broken, for reports. */
 static void count_gone (transformer *t)
 {
     t->gone = 0;
     for (size_t i = 0; i < t->s->setting.sums->cloud->n; i++) t->gone += t->chi[t->s->place[i]] == 0;
 }
 
-/* Point i lacks neighbours from now on: it is listed once, with its block, for add_strain. */
+/* Lists point i, which lacks neighbours from now on, with its block for add_strain. Called once for a
+ * point. */
 static void join_rim (transformer *t, size_t i)
 {
     unsigned bit;
@@ -128,7 +129,7 @@ static void join_rim (transformer *t, size_t i)
     t->rim[t->nrim++] = (fft_rim) { (int) i, (int) block };
 }
 
-/* Everything that follows from the bits, from scratch: at the start and after a checkpoint. */
+/* Computes all data that depend on the alive bits from scratch: at the start and after a checkpoint. */
 static void renew (transformer *t)
 {
     size_t n = t->s->setting.sums->cloud->n;
@@ -141,7 +142,7 @@ static void renew (transformer *t)
     count_gone (t);
 }
 
-/* Notes the block of a place, once. */
+/* Adds the block of a place to the list, once. */
 static void touch_block (transformer *t, size_t place, size_t *blocks)
 {
     unsigned bit;
@@ -150,10 +151,10 @@ static void touch_block (transformer *t, size_t place, size_t *blocks)
     t->seen_block[k] = 1, t->list[(*blocks)++] = (int) k;
 }
 
-/* Bonds that died (their bits say so already). Points whose last bond it was lose their weight, and those
- * about them renew D, also those that something parts from them, as the convolution sums all; all blocks
- * with such a point are judged anew. Costs what the dead bonds touch, not what the body has. OWNER: lost a
- * bond; AROUND: a neighbour lost its weight. */
+/* Updates the data for n bonds that broke (bits are set already). Points that lost their last bond lose their
+ * weight, D of all points around them is summed anew (also across gaps, as the convolution sums all), and
+ * blocks of all these points are judged anew. The cost depends on these bonds, not on the size of the body.
+ * OWNER: the point lost a bond; AROUND: a neighbour lost its weight. */
 static void lose_bonds (transformer *t, size_t n, const size_t *bond)
 {
     enum { OWNER = 1, AROUND = 2 };
@@ -195,7 +196,7 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
     }
 }
 
-/* Bits first, then what follows from them. changes NULL: `alive` is another state altogether. */
+/* Updates the alive bits, then the data that depend on them. changes NULL: all of `alive` is new. */
 static void fft_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     transformer *t = self;
@@ -205,7 +206,8 @@ static void fft_update (void *self, const unsigned char *alive, const pg_changes
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Displacements of component d along a row less the motion (fft_motion.c), times a weight. */
+/* Component d of the displacement along a row less the subtracted motion (fft_motion.c), times a weight, to
+ * x. */
 static void still_row (const transformer *t, size_t row, int d, const double *weight, double *x)
 {
     double from, by;
@@ -214,16 +216,16 @@ static void still_row (const transformer *t, size_t row, int d, const double *we
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
-/* Row of chi u_d, which is transformed. */
+/* fft_job.fill: writes a row of chi u_d (d = field), which is transformed. */
 static void fill_force (void *context, size_t row, int field, double *x)
 {
     const transformer *t = context;
     still_row (t, row, field, t->chi + fft_row_base (t, row), x);
 }
 
-/* Values of a row to their points (out: points x fields), except those of blocks with cut bonds, which
- * the loop over bonds fills. Blocks without gaps whose points have consecutive numbers are copied without
- * looking points up. */
+/* Copies the values of a row to their points (out: points x fields), except for blocks with broken bonds,
+ * which the loop over bonds fills. Blocks without gaps whose points have consecutive numbers are copied in
+ * one piece. */
 static void hand_out (const transformer *t, size_t row, int fields, double *const *x, double *out)
 {
     const stencil *s = t->s;
@@ -249,8 +251,8 @@ static void hand_out (const transformer *t, size_t row, int fields, double *cons
     }
 }
 
-/* What comes back of a row: f_a = chi (q_a - sum_b D_ab u_b), q_a = sum_b K_ab * (chi u_b), for all
- * points of it but those of cut blocks. */
+/* fft_job.take: forces of a row, f_a = chi (q_a - sum_b D_ab u_b) with the transformed q_a = sum_b K_ab *
+ * (chi u_b), N, except for cut blocks. */
 static void take_force (void *context, size_t row, double *const *q, double *spare)
 {
     const transformer *t = context;
@@ -268,12 +270,11 @@ static void take_force (void *context, size_t row, double *const *q, double *spa
     t->f.kernels->force[t->dim - 1] (&t->s->job, &r);
 }
 
-/* What the uniform strain does to points that lack neighbours: f_a = chi sum_bc T_abc e_bc; e: xx, 2 xy, yy,
- * 2 xz, 2 yz, zz */
+/* Uniform strain that was subtracted, e: xx, 2 xy, yy, 2 xz, 2 yz, zz; it gives points that lack neighbours
+ * the force f_a = chi sum_bc T_abc e_bc. */
 typedef struct { transformer *t; double e[6]; } strain;
 
-/* The uniform strain that was taken off, from the slopes per lattice step; shears are the engineering
- * ones. */
+/* Returns the uniform strain that was subtracted, from its slopes per lattice step; engineering shears. */
 static strain strain_of (transformer *t)
 {
     const double *step = t->s->setting.sums->sites.step, *G = t->off.slope;
@@ -284,14 +285,13 @@ static strain strain_of (transformer *t)
     return s;
 }
 
-/* Puts the strain back for the points of the rim. Inside a whole family a uniform strain makes no force,
- * so that only points that lack neighbours need this: T_abc = sum_j K_ab xi_c chi_j of sum_D. third:
- * which of the stored moments (a symmetric tensor of third order) is the one of component a and of strain
- * p. */
+/* Adds the forces of the subtracted strain on points of the rim. With a whole family a uniform strain gives
+ * no force, so that only points that lack neighbours need this: T_abc = sum_j K_ab xi_c chi_j of sum_D.
+ * third: index of the stored moment (of a symmetric third-order tensor) for component a and strain p. */
 static inline __attribute__ ((always_inline)) void add_to (const strain *s, size_t first, size_t last,
                                                            const int dim, const int terms)
 {
-    /* fft_third */
+    /* indices by fft_third */
     static const int third[3][6] = { { 0, 1, 2, 4, 5, 7 }, { 1, 2, 3, 5, 6, 8 }, { 4, 5, 6, 7, 8, 9 } };
     const transformer *t = s->t;
     for (size_t k = first; k < last; k++) {
@@ -316,8 +316,8 @@ static void add_strain (void *context, size_t first, size_t last, int thread)
     else add_to (s, first, last, 3, 6);
 }
 
-/* Forces of blocks by their bonds where some are cut or might break (fft_bound.c), of the others by
- * transforms. Where all blocks are cut nothing is transformed. */
+/* Forces f, N: of blocks with broken bonds, or with bonds that might break (fft_bound.c), bond by bond, of
+ * all others by transforms. If all blocks have broken bonds nothing is transformed. */
 static pg_status fft_force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -344,7 +344,7 @@ done:
 }
 
 /* ---- energies ------------------------------------------------------------------------------------------ */
-/* W = u . D u - 2 u . q along a row, for the energy of each point. */
+/* fft_job.take: W = u . D u - 2 u . q along a row, J, for the energy of each point. */
 static void take_work (void *context, size_t row, double *const *q, double *spare)
 {
     const transformer *t = context;
@@ -361,7 +361,7 @@ static void take_work (void *context, size_t row, double *const *q, double *spar
         }
 }
 
-/* Row of chi u_a u_b; `field` numbers the pairs a <= b. */
+/* fft_job.fill: writes a row of chi u_a u_b; `field` numbers the pairs a <= b. */
 static void fill_squares (void *context, size_t row, int field, double *x)
 {
     const transformer *t = context;
@@ -372,8 +372,8 @@ static void fill_squares (void *context, size_t row, int field, double *x)
     still_row (t, row, a + b, x, x);
 }
 
-/* chi (W + S) with S = sum_ab K_ab * (chi u_a u_b): twice the energy that the bonds of a point store,
- * seen from it. */
+/* fft_job.take: chi (W + S), J, with the transformed S = sum_ab K_ab * (chi u_a u_b): twice the energy of all
+ * bonds of each point of the row. */
 static void take_squares (void *context, size_t row, double *const *S, double *spare)
 {
     const transformer *t = context;
@@ -383,9 +383,9 @@ static void take_squares (void *context, size_t row, double *const *S, double *s
     hand_out (t, row, 1, x, t->sum.f_out);
 }
 
-/* Energy density of the points, J/m^3. Each bond stores (u_j - u_i) K (u_j - u_i), which multiplied out
- * is chi (S - 2 u.q + u.D u): three convolutions instead of a loop. Rounding may leave a small negative
- * number where a point is at rest: it is cut to 0. */
+/* Energy density of the points, J/m^3. Each bond stores 1/2 (u_j - u_i) K (u_j - u_i), whose sum over the
+ * bonds of a point is half of chi (S - 2 u.q + u.D u), by convolutions. Small negative numbers from rounding
+ * become 0. */
 static pg_status fft_energies (void *self, const double *u, double *W)
 {
     pg_status status = PG_OK;
@@ -409,8 +409,8 @@ done:
     return status;
 }
 
-/* Half the work of the forces on the way there, J. The rigid motion that fits u best is taken off first:
- * forces do no work on it, and what is left of u is small, so that little is rounded. */
+/* Energy -1/2 f . u, J. The rigid motion that fits u best is subtracted first: forces do no work on it, and
+ * the rest of u is small, and so are rounding errors. */
 static double fft_energy (void *self, const double *u)
 {
     transformer *t = self;
@@ -432,16 +432,16 @@ static double fft_energy (void *self, const double *u)
     return fmax (-0.5 * sum, 0);
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
-/* K of a pair of axes and a bond, as fft.h asks for it. */
+/* ---- creation ------------------------------------------------------------------------------------------ */
+/* Returns K of a pair of axes and a bond, N/m, for pg_fft_create. */
 static double kernel_value (const void *context, int pair, size_t entry)
 {
     const transformer *t = context;
     return t->K[entry * (size_t) (t->pairs + t->thirds) + (size_t) pair];
 }
 
-/* Of every bond of the stencil K_ab = a xi_a xi_b (N/m) and K_ab xi_c (N), and the sums of K over all
- * bonds: D of a point whose family is whole. */
+/* Computes K_ab = a xi_a xi_b (N/m) and K_ab xi_c (N) of every bond of the stencil, and the sums of K over
+ * all bonds, which are D of a point with a whole family. */
 static pg_status set_kernels (transformer *t)
 {
     pg_status status = PG_OK;
@@ -465,15 +465,15 @@ done:
     return status;
 }
 
-/* Timing plans takes about as long as twenty transforms of a hundred thousand places each: a second or
- * less. Worth it where points times evaluations of the run are many. */
+/* Are plans worth timing? That takes about as long as twenty transforms of a hundred thousand places each, a
+ * second or less, and pays if points times sums of the run are many. */
 static int worth_timing (const pg_bond_loop_setting *setting)
 {
     return setting->sums->rule.evaluations * (double) setting->sums->cloud->n > 2e8;
 }
 
-/* A stencil of bonds, which keeps the bits and serves cut blocks, and beside it kernels, plans and what
- * follows from the bits. */
+/* Makes a stencil, which has the alive bits and sums blocks with broken bonds, kernels, plans, and the data
+ * that depend on the bits. */
 static pg_status create_convolution (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
@@ -514,8 +514,8 @@ done:
     return status;
 }
 
-/* Bytes that one sum moves, by the point: fields in and out, D, rim, and the transformed fields four
- * times (rows and columns, forth and back). Bonds cost nothing. */
+/* Memory traffic of one sum, bytes per point: fields read and written, D, rim, and the transformed fields
+ * four times (rows and columns, forward and back). Bonds have none. */
 static void fft_bytes (const void *self, double *per_bond, double *per_point)
 {
     const transformer *t = self;
@@ -530,9 +530,9 @@ static void fft_bytes (const void *self, double *per_bond, double *per_point)
                  / n;
 }
 
-/* Estimate of one sum, ns. From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and
- * 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of transforms takes 0.3 ns
- * (in space 0.4) times places times their binary logarithm, all the rest 6 (15) ns a point and 20 us. */
+/* Estimated time of one sum, ns. From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and
+ * 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of transforms takes 0.3 ns (3D
+ * 0.4) times places times their binary logarithm, everything else 6 ns (3D 15) per point and 20 us. */
 static double fft_time (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     const pg_sums *sums = setting->sums;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * fft_kernel.h: rows and columns between transforms, in terms of block_kernel.h's vectors (private, no
- * include guard: included after it, once per instruction set, FFT_NAME being the name of the table). No
+ * fft_kernel.h: loops over rows and columns between transforms, with the vectors of block_kernel.h (private,
+ * no include guard: included after it, once per instruction set, FFT_NAME being the name of the table). No
  * product is fused with a sum: all sets give the same bits. */
 #include "fft_rows.h"
 #include <math.h>
 
-/* x[k] = (u[k] - shift - (from + by k)) chi[k] of a row of n places, n rounded up to a vector. The shift
- * goes off first and alone: where it is large, u - shift is exact, and what follows is small. */
+/* x[k] = (u[k] - shift - (from + by k)) chi[k] of a row of n places, n rounded up to a vector. The shift is
+ * subtracted first and alone: where it is large, u - shift is exact, and the rest is small. */
 static TARGET void still (size_t n, const double *u, double shift, double from, double by, const double *chi,
                           double *x)
 {
@@ -16,8 +16,8 @@ static TARGET void still (size_t n, const double *u, double shift, double from, 
         STORE (x + k, ((LOAD (u + k) - start) - (first + slope * at)) * LOAD (chi + k));
 }
 
-/* f_a = chi (q_a - sum_b D_ab u_b) of the 32 sites from k on, u less the motion. out: component by
- * component, PG_BLOCK apart. */
+/* f_a = chi (q_a - sum_b D_ab u_b) of the 32 sites from k on, with u less the subtracted motion. out:
+ * component by component, PG_BLOCK apart, N. */
 INLINE void block_force (const fft_row *r, size_t k, int dim, double *out)
 {
     for (size_t v = 0; v < PG_BLOCK; v += LANES) {
@@ -38,7 +38,7 @@ INLINE void block_force (const fft_row *r, size_t k, int dim, double *out)
     }
 }
 
-/* All blocks of a row that have points and no cut bond. */
+/* Forces of all blocks of a row that have points and no broken bond. */
 INLINE void row_force (const pg_block_job *job, const fft_row *r, int dim)
 {
     double out[3 * PG_BLOCK] __attribute__ ((aligned (64)));
@@ -53,8 +53,8 @@ static TARGET void row_force_1 (const pg_block_job *job, const fft_row *r) { row
 static TARGET void row_force_2 (const pg_block_job *job, const fft_row *r) { row_force (job, r, 2); }
 static TARGET void row_force_3 (const pg_block_job *job, const fft_row *r) { row_force (job, r, 3); }
 
-/* Kernel of FFT_WIDE columns at one place, each value twice, for real and imaginary parts: kernels are
- * real, fields are complex. */
+/* Loads the kernel of FFT_WIDE columns at one place, times `sign`, each value twice, for real and imaginary
+ * part: kernels are real, fields are complex. */
 INLINE void load_kernel (const double *K, double sign, vec *k)
 {
     for (int v = 0; v < FFT_WIDE / LANES; v++) {

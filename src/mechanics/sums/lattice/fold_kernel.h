@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * fold_kernel.h: loops of folded stencils over the blocks of block.h (private, included by block_kernel.h
- * once per instruction set). In the plane, where a bond (x, y) has the same constant a as its three mirror
- * images (-x, y), (x, -y), (-x, -y), the force of a point whose bonds all live is
+ * once per instruction set). In 2D, where a bond (x, y) has the same constant a as its three mirror images
+ * (-x, y), (x, -y), (-x, -y), the force on a point with all bonds intact is
  *
  *   f_x = sum_x [ P(x) at x to the right + Q(x) at x to the left ] - K_xx u_x,
  *   P, Q = sum_y a x^2 (u_x above + u_x below) +- sum_y a x y (u_y above - u_y below),
  *
- * and alike for f_y: rows are folded onto the row of the point, then columns onto the point, which takes a
- * fourth of the products that the bonds take one by one. What is summed is u less that of one place nearby: a
- * motion of the body as a whole rounds nothing away. */
+ * and similarly for f_y: rows are folded onto the row of the point, then columns onto the point, which takes
+ * a fourth of the products of a sum bond by bond. Sums are of u less that of a place nearby, so that a motion
+ * of the body as a whole causes no rounding errors. */
 
-/* Rows folded onto the row of some blocks, at one vector of places x: sums and differences of the rows j
- * above and below, j from 1 on; j = 0: the row itself. ref: displacement that is taken off. */
+/* Folds rows onto the row of some blocks, at LANES places from `place` on: sums and differences (apart) of
+ * the rows j above and below, j from 1 on; j = 0: the row itself. ref: displacement that is subtracted, m. */
 INLINE void fold_rows (const pg_block_job *job, size_t place, const int rows, const vec *ref, vec (*sum)[2],
                        vec (*apart)[2])
 {
@@ -26,7 +26,8 @@ INLINE void fold_rows (const pg_block_job *job, size_t place, const int rows, co
     }
 }
 
-/* What column x of the stencil takes of these rows: to the right P, to the left Q (x and y components). */
+/* Sums the folded rows by column x of the stencil: P for points to the left, Q to the right (x, y
+ * components), N. */
 INLINE void fold_column (const pg_fold *fold, int x, const int rows, const vec (*sum)[2],
                          const vec (*apart)[2], vec *right, vec *left)
 {
@@ -43,10 +44,10 @@ INLINE void fold_column (const pg_fold *fold, int x, const int rows, const vec (
 enum { FOLD_WIDTH = PG_FOLD_BLOCKS * PG_BLOCK + 2 * PG_FOLD_HALO };
 typedef double fold_line[FOLD_WIDTH];
 
-/* Forces of `count` blocks of a row that follow each other and whose bonds all live, from block k on. Places
- * of the lines begin PG_FOLD_HALO before the first block; line[x][0, 1]: P, [2, 3]: Q of column x, whose
- * components are x and y. reach: columns and rows, a number that the compiler knows, so that rows stay in
- * registers; rows and columns that the stencil has not have constants of 0. */
+/* Forces of `count` consecutive blocks of a row with all bonds intact, from block k on. The lines begin
+ * PG_FOLD_HALO places before the first block; line[x][0, 1]: P, line[x][2, 3]: Q of column x, components x
+ * and y. reach: columns and rows, a constant for the compiler, so that rows stay in registers; constants of
+ * rows and columns beyond the stencil are 0. */
 INLINE void fold_blocks (const pg_block_job *job, size_t k, size_t count, const double *ref, const int reach)
 {
     const pg_fold *fold_ = job->fold;
@@ -58,7 +59,7 @@ INLINE void fold_blocks (const pg_block_job *job, size_t k, size_t count, const 
         vec sum[PG_FOLD_ROWS][2], apart[PG_FOLD_ROWS][2], right[2], left[2];
         const double *own = fold_->pull;
         fold_rows (job, base + at - PG_FOLD_HALO, reach, from, sum, apart);
-        right[1] = (vec) { 0 };                        /* column 0 has no x: a y^2 alone is left */
+        right[1] = (vec) { 0 };                        /* column 0 has x = 0: only a y^2 is not 0 */
         UNROLL for (int j = 1; j <= reach; j++)
             right[1] = vec_fuse (ALL (own[3 * j + 2]), sum[j][1], right[1]);
         STORE (line[0][1] + at, right[1]);
@@ -90,7 +91,8 @@ INLINE void fold_blocks (const pg_block_job *job, size_t k, size_t count, const 
     }
 FOLD (1) FOLD (2) FOLD (3) FOLD (4) FOLD (5) FOLD (6) FOLD (7) FOLD (8)
 
-/* The largest stretch of the bonds of a block whose bonds all live, of those that may break. */
+/* Returns the largest stretch, at least 0, of those bonds of block k that may break; all its bonds are
+ * intact. */
 static TARGET double most_stretch (const pg_block_job *job, size_t k)
 {
     const size_t base = job->block[k].base;
@@ -111,8 +113,8 @@ static TARGET double most_stretch (const pg_block_job *job, size_t k)
     return vec_highest (top);
 }
 
-/* As spread, and how far each component of the displacements of a block has moved since the last time: the
- * least and the largest change (blocks x 2). */
+/* Copies u to job->u as `spread` does, and measures the least and largest change of each component over each
+ * block since the last call, m (fold->low, fold->high: blocks x 2). */
 static TARGET void spread_and_measure (const pg_block_job *job, const double *u, size_t first, size_t last)
 {
     for (size_t k = first; k < last; k++) {

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * pair_kernel.h: loops of bonds that pull along themselves over the blocks of block.h (private, included by
- * block_kernel.h once per instruction set; theory A, B1). Of a live bond with term a = c V^2 k beta / r^3:
+ * pair_kernel.h: loops of pair forces along bonds over the blocks of block.h (private, included by
+ * block_kernel.h once per instruction set; theory A, B1). For an intact bond with constant a = c V^2 k beta /
+ * r^3:
  *   linear  force on the own end a (xi . eta) xi,       stored a (xi . eta)^2
  *   finite  with y = xi + eta and s = |y|^2 - r^2 = eta . (xi + y), which cancels nothing:
  *           force a r^2 s y / (|y| (|y| + r)),          stored a r^2 s^2 / (|y| + r)^2.
- * Bonds over their limit set a flag of the block: which they are is found bond by bond, afterwards. */
+ * Bonds over their limit set a flag of their block; which bonds these are is found bond by bond afterwards.
+ * */
 
-/* What is compared with the limit: linear xi . eta; finite s = |y|^2 - r^2 and, in y, the place moved to.
- * s as eta . (xi + y) loses no digits, where |y|^2 - r^2 of a small stretch would lose most of them. */
+/* Returns the measure that is compared with the limit, m^2: linear xi . eta; finite s = |y|^2 - r^2 with the
+ * deformed bond y = xi + eta. s = eta . (xi + y) loses no digits, while |y|^2 - r^2 of a small stretch would
+ * lose most. */
 INLINE vec pair_measure (const vec *xi, const vec *eta, vec *y, int dim, int finite)
 {
     vec s;
@@ -22,7 +25,7 @@ INLINE vec pair_measure (const vec *xi, const vec *eta, vec *y, int dim, int fin
     return s;
 }
 
-/* The sums of a stride times the weights p of its points */
+/* Multiplies the sums of a stride by the weights p of its points and stores them in `out`. */
 INLINE void pair_store (vec (*sum)[8], const double *p, int vecs, int dim, int weighted, double *out)
 {
     UNROLL for (int d = 0; d < dim; d++) {
@@ -33,9 +36,9 @@ INLINE void pair_store (vec (*sum)[8], const double *p, int vecs, int dim, int w
     }
 }
 
-/* Sums of one stride of a block, `stride` being its first site: out[k * PG_BLOCK + site], N. Bonds run
- * outside, sites in the lanes. The finite force a r^2 s y / (|y| (|y| + r)) has one root and one quotient
- * a bond. */
+/* Forces of one stride of block k, `stride` being its first site: out[component * PG_BLOCK + site], N. The
+ * outer loop runs over bonds, lanes are sites. The finite force a r^2 s y / (|y| (|y| + r)) takes one root
+ * and one quotient per bond. */
 INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, int finite, int check,
                         int weighted, double *out, hits *over)
 {
@@ -75,7 +78,8 @@ INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, 
     pair_store (sum, p, vecs, dim, weighted, out + stride);
 }
 
-/* All strides of a range of blocks that have points; hits are noted by the block. */
+/* Forces of the blocks first .. last - 1, strides without points left out; sets job->hit of blocks with a
+ * bond over its limit. */
 INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite, int check,
                         int weighted)
 {
@@ -92,8 +96,8 @@ INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int 
     }
 }
 
-/* Twice the energy of each bond, seen from both ends: linear a (xi.eta)^2; finite a r^2 q^2 / (|y| + r)^2
- * with q = |y|^2 - r^2, which is a r^2 (|y| - r)^2 without a difference of near numbers. */
+/* Sums twice the energy of each bond, J, from both ends, to job->energy: linear a (xi.eta)^2; finite a r^2
+ * q^2 / (|y| + r)^2 with q = |y|^2 - r^2, which is a r^2 (|y| - r)^2 without cancellation. */
 INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite,
                          int weighted)
 {
@@ -129,7 +133,8 @@ INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int
     }
 }
 
-/* One function for each dimension, strain measure, check and weighting: all constants to the compiler. */
+/* One function for each dimension, strain measure, check and weighting: all are constants for the compiler.
+ * */
 #define FORCE(D, F, C, W) \
     static TARGET void force_##D##F##C##W (const pg_block_job *job, size_t first, size_t last) \
     { \

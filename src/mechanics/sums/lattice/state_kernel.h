@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * state_kernel.h: loops of state-based theory over the blocks of block.h (private, included by block_kernel.h
- * once per instruction set; theory B6). e = xi.eta of a live bond, w = k beta / r:
+ * once per instruction set; theory B6). With e = xi.eta of an intact bond, w = k beta / r:
  *   dilate  alpha_i = factor_i sum_j w e V_j          (= A theta / q)
  *   pull    f_i     = V_i sum_j w V_j [alpha_i + alpha_j + (beta_i + beta_j) e / r^2] xi
  *   store   W_i     = 1/2 [factor_i (sum_j w e V_j)^2 + beta_i sum_j w e^2 / r^2 V_j] */
 
-/* alpha of the points of one stride of block k: sum over bonds of w V e, times the factor of each point.
- * check: bonds over their limit set `over` (PG_CHECK_SOME: only those that may break); weighted: V is
- * times the neighbour's share p. */
+/* Computes alpha of the points of one stride of block k: sum over bonds of w V e, times the factor of each
+ * point. check: bonds over their limit set `over` (PG_CHECK_SOME: only those that may break); weighted: V is
+ * multiplied by the neighbour's share p. */
 INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int dim, int check, int weighted,
                            hits *over)
 {
@@ -27,7 +27,7 @@ INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int di
         const ptrdiff_t jump = job->jump[j];
         const double *t = job->term + j * PG_TERMS;
         const uint32_t live = alive[j] >> stride, free = check == PG_CHECK_SOME ? may[j] >> stride : 0;
-        /* The numbers of a bond in all lanes; dead bonds are masked out of e, so that they add nothing. */
+        /* The numbers of a bond in all lanes; e of broken bonds is masked, so that they add nothing. */
         const vec limit = ALL (t[PG_AT_LIMIT]), wV = ALL (t[PG_AT_WV]);
         UNROLL for (int v = 0; v < vecs; v++) {
             vec s = ALL (t[PG_AT_XI]) * (LOAD (u[0] + jump + v * LANES) - own[0][v]);
@@ -44,8 +44,8 @@ INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int di
         STORE (job->alpha + base + v * LANES, sum[v] * LOAD (job->factor + base + v * LANES));
 }
 
-/* Forces of one stride, N: sum over bonds of w V V [alpha_i + alpha_j + (beta_i + beta_j) e / r^2] xi. In
- * space a stride of many vectors needs more registers than there are, and is done in two halves. */
+/* Forces of one stride, N: sum over bonds of w V V [alpha_i + alpha_j + (beta_i + beta_j) e / r^2] xi. In 3D
+ * a stride of many vectors needs more registers than there are, and is done in two halves. */
 INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim, int weighted, double *out)
 {
     const int vecs = dim == 3 && VECS (dim) > 1 ? VECS (dim) / 2 : VECS (dim);
@@ -87,8 +87,8 @@ INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim,
     }
 }
 
-/* All strides of a range of blocks that have points (part: the bits of one stride); job->hit of blocks
- * with a bond over its limit. */
+/* Computes alpha of the blocks first .. last - 1, strides without points left out (part: the bits of one
+ * stride); sets job->hit of blocks with a bond over its limit. */
 INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int dim, int check, int weighted)
 {
     const int width = VECS (dim) * LANES;
@@ -102,7 +102,7 @@ INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int
     }
 }
 
-/* Forces of all strides of a range of blocks that have points, N, which go to job->f. */
+/* Forces of the blocks first .. last - 1, N, to job->f; strides without points are left out. */
 INLINE void pull_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int width = VECS (dim) * LANES;
@@ -115,9 +115,8 @@ INLINE void pull_loop (const pg_block_job *job, size_t first, size_t last, int d
     }
 }
 
-/* Energy density of every point, J/m^3, to job->energies where that is wanted, and the energy of each
- * block, J. Lanes without a point have no live bond and add zeros: blocks need no masks but
- * for what goes out. */
+/* Energy density of every point, J/m^3, to job->energies unless NULL, and energy of each block, J, to
+ * job->energy. Lanes without a point have no intact bond and add zeros, so that only the output is masked. */
 INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     double lane[LANES];
@@ -154,7 +153,7 @@ INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int 
     }
 }
 
-/* One function for each dimension, check and weighting, all of which the compiler sees as constants. */
+/* One function for each dimension, check and weighting: all are constants for the compiler. */
 #define DILATE(D, C, W) \
     static TARGET void dilate_##D##C##W (const pg_block_job *job, size_t first, size_t last) \
     { \
