@@ -38,7 +38,7 @@ typedef struct {
     size_t  gone;                                      /* number of points all of whose bonds are broken */
     taken_motion off;
     double *third;  /* sum K_ab xi_c chi, N, at points marked by open (points x thirds) */
-    unsigned char *open;                               /* 1: a neighbour is missing or of weight other than 1 */
+    unsigned char *open;                               /* 1: a neighbour is missing or its weight is not 1 */
     fft_rim *rim;  size_t nrim;                        /* points marked by open, with their blocks */
     double *edge;                                      /* edge, ragged, risky: see fft_bound.c */
     unsigned char *ragged, *risky;

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The motion that is taken off displacements before they are transformed. Transforms round by the size of u,
- * sums over bonds by that of the differences eta: without the uniform strain (or rigid motion) that fits u
- * best, found by least squares over a sample of the points, little is left of u, and little is rounded. */
+ * The motion that is subtracted from displacements before they are transformed. Rounding errors of transforms
+ * have the size of u, those of sums over bonds that of eta: the uniform strain (or rigid motion) that fits u
+ * best, by least squares over a sample of the points, is subtracted, so that the rest and its rounding errors
+ * are small. */
 #include "fft_convolution.h"
 #include <math.h>
 #include <string.h>
 
-/* Moments of some points spread over the body: their mean place and displacement, sum r r and sum v r about
- * these */
+/* Moments of a sample of points: their mean position and displacement (m), sum r r and sum v r (m^2) with
+ * positions r and displacements v relative to these. */
 typedef struct { double centre[3], shift[3], rr[9], vr[9]; } moments;
 
-/* Moments of a sample of at most 1024 points, spread by the golden ratio, so that they lie on no line or row
- * of the lattice; those without live bonds are left out, as they may fly anywhere. */
+/* Computes the moments of a sample of at most 1024 points, spread by the golden ratio, so that they do not
+ * lie on one line or row of the lattice; points without intact bonds are left out, as they may be anywhere.
+ * */
 static moments sample (const transformer *t, const double *u)
 {
     enum { SAMPLES = 1024 };
@@ -19,7 +21,7 @@ static moments sample (const transformer *t, const double *u)
     size_t dim = (size_t) t->dim, n = cloud->n, all = n < SAMPLES ? n : SAMPLES, count = 0, point[SAMPLES];
     moments m = { 0 };
     for (size_t k = 0; k < all; k++) {
-        double golden = 0.6180339887498949 * (double) k;  /* as spread along rows as across them */
+        double golden = 0.6180339887498949 * (double) k;  /* spreads points along rows and across them */
         size_t i = all == n ? k : (size_t) ((golden - floor (golden)) * (double) n);
         if (t->chi[t->s->place[i]] == 0) continue;
         for (size_t d = 0; d < dim; d++) m.centre[d] += cloud->x[i*dim + d], m.shift[d] += u[i*dim + d];
@@ -36,8 +38,8 @@ static moments sample (const transformer *t, const double *u)
     return m;
 }
 
-/* Gradient of the best rotation turn x r by least squares: J turn = sum r x v, J the tensor of inertia of
- * the sample. Singular for points on a line, which leaves no rotation. */
+/* Gradient G of the rotation turn x r that fits best: J turn = sum r x v, J the tensor of inertia of the
+ * sample. J is singular for points on a line: then G is 0. */
 static void fit_turn (const moments *m, int dim, double *G)
 {
     double J[9], turn[3], all = m->rr[0] + m->rr[4] + m->rr[8];
@@ -57,8 +59,8 @@ static void fit_turn (const moments *m, int dim, double *G)
     }
 }
 
-/* The best uniform gradient: G sum r r = sum v r, row by row; points in a line or plane, whose sum r r is
- * singular, have that of the rotation. */
+/* The uniform gradient G that fits best: G sum r r = sum v r, row by row; if sum r r is singular, as points
+ * lie in a line or plane, that of the rotation. */
 static void fit_strain (const moments *m, int dim, double *G)
 {
     double J[9];
@@ -74,9 +76,9 @@ static void fit_strain (const moments *m, int dim, double *G)
     }
 }
 
-/* Fits a motion shift + (base + slope . site) to u, to be taken off before the transforms. Base and slope are
- * multiples of a unit so coarse that no sum of them is rounded at any site. strained: u is a small remainder,
- * and all of the shift goes into base, so that u loses no digit. */
+/* Fits a motion shift + (base + slope . site) to u, which is subtracted before the transforms. Base and slope
+ * are multiples of a unit so coarse that no sum of them is rounded at any site. strained: uniform strain,
+ * with the whole shift in base; else a rigid motion. */
 void pg_fft_fit_motion (transformer *t, const double *u, int strained)
 {
     const pg_sums *sums = t->s->setting.sums;
@@ -102,7 +104,7 @@ void pg_fft_fit_motion (transformer *t, const double *u, int strained)
     }
 }
 
-/* The motion along a row: shift + (from + k by) at its site k. Rows are numbered y first. */
+/* The motion along a row: shift + (from + k by) at its site k, m. Row = y + (rows along y) z. */
 void pg_fft_motion_of (const transformer *t, size_t row, int d, double *from, double *by)
 {
     size_t ny = (size_t) t->s->setting.sums->sites.count[1];

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Convolutions with even kernels: rows forward (3D: and the columns of their plane), columns of the last axis
- * there, times the kernel, and back, rows back. */
+ * Convolutions with even kernels: forward transforms of rows (3D: and of the columns of their plane);
+ * forward transforms of the columns along the last axis, product with the kernel, backward transforms; rows
+ * backward. */
 #include "fft_rows.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { BATCH = 2 * FFT_WIDE };                         /* doubles of a place in a batch of columns */
-/* The first address from x on that is a multiple of 64 bytes. */
+/* Returns the first address from x on that is a multiple of 64 bytes. */
 static double *level (double *x) { return (double *) (((uintptr_t) x + 63) / 64 * 64); }
 /* Number of the pair of axes a <= b: xx | xx xy yy | xx xy xz yy yz zz. */
 static int pair_of (int dim, int a, int b) { return dim == 3 ? a * (5 - a) / 2 + b : dim == 2 ? a + b : 0; }
 
 /* ---- columns ------------------------------------------------------------------------------------------- */
-/* n places of a batch of columns, `stride` doubles apart, to the workspace; zeros up to T */
+/* Copies n places of a batch of columns, `stride` doubles apart, to the workspace, and zeros for places n to
+ * T - 1. */
 static void gather (double *restrict workspace, const double *restrict from, size_t n, size_t stride,
                     size_t T)
 {
@@ -22,20 +24,20 @@ static void gather (double *restrict workspace, const double *restrict from, siz
     if (T > n) memset (workspace + n * BATCH, 0, (T - n) * BATCH * sizeof *workspace);
 }
 
-/* The first n places of the workspace back to a batch of columns, `stride` doubles apart */
+/* Copies the first n places of the workspace back to a batch of columns, `stride` doubles apart. */
 static void scatter (double *restrict to, const double *restrict workspace, size_t n, size_t stride)
 {
     for (size_t k = 0; k < n; k++) memcpy (to + k * stride, workspace + k * BATCH, BATCH * sizeof *workspace);
 }
 
-/* Axes of one place have no plan, and nothing to do. */
+/* Transforms x in place; along an axis of one place there is no plan, and nothing to do. */
 static void transform (fftw_plan plan, double *x)
 {
     if (plan) fftw_execute_dft (plan, (fftw_complex *) x, (fftw_complex *) x);
 }
 
-/* The columns of a plane along the middle axis (3D only), in place. Forward only the n[1] rows that were
- * filled are read, and back only those are written. */
+/* Transforms the columns of a plane along the middle axis (3D only), in place. Forward only the n[1] filled
+ * rows are read, backward only these are written. */
 static void middle_columns (const fft *f, double *plane, int back, double *workspace)
 {
     const fft_box *b = &f->box;
@@ -48,8 +50,8 @@ static void middle_columns (const fft *f, double *plane, int back, double *works
     }
 }
 
-/* At one place, on FFT_WIDE columns: z_0 = sum over pairs a <= b of K_ab z_ab, pairs of two axes counted
- * twice. sign: of the kernel's mirror image at this place. */
+/* At one place of FFT_WIDE columns: z_0 = sum over pairs a <= b of K_ab z_ab, pairs of two axes counted
+ * twice. sign: of the kernel of each pair, which may be a mirror image. */
 static inline void contract (int dim, const double *const *K, const double *sign, double *const *z, size_t at,
                              size_t k)
 {
@@ -69,14 +71,15 @@ static inline void contract (int dim, const double *const *K, const double *sign
 /* ---- passes -------------------------------------------------------------------------------------------- */
 typedef struct { fft *f; const fft_job *job; } pass;
 
-/* The workspace of a thread. */
+/* Returns the workspace of a thread. */
 static double *room_of (const fft *f, int thread)
 {
     return level (f->workspaces) + (size_t) thread * f->workspace;
 }
 
-/* Rows of some planes: filled by the job, transformed real to complex, then the columns within the plane.
- * Places beyond the sites are zero: the padding that keeps bonds from reaching round the box. */
+/* Forward transforms of the planes first .. last - 1: rows are filled by the job and transformed real to
+ * complex, then the columns within the plane. Places beyond the sites are zero: the padding that keeps bonds
+ * from wrapping around. */
 static void forward_slabs (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -86,7 +89,7 @@ static void forward_slabs (void *context, size_t first, size_t last, int thread)
         for (int a = 0; a < p->job->in; a++) {
             double *plane = p->f->field[a] + l * b->T[1] * b->C * 2;
             for (size_t m = 0; m < b->n[1]; m++) {
-                /* r2c keeps its input */
+                /* FFTW's r2c keeps its input: zeros once per plane suffice */
                 if (m == 0) memset (x + b->n[0], 0, (b->T[0] - b->n[0]) * sizeof *x);
                 p->job->fill (p->job->context, l * b->n[1] + m, a, x);
                 fftw_execute_dft_r2c (b->row[0], x, (fftw_complex *) (plane + m * b->C * 2));
@@ -95,10 +98,9 @@ static void forward_slabs (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* Tasks: batches of FFT_WIDE columns along the last axis, gathered into the workspace, transformed,
- * multiplied by the kernels, transformed back and written to where they came from. The kernel of a
- * mirrored column (m beyond the middle) is that of its mirror image, with a change of sign where it is
- * odd. */
+/* Convolves batches of FFT_WIDE columns along the last axis, first .. last - 1: gathered into the workspace,
+ * transformed, multiplied by the kernels, transformed back and written in place. A column with m beyond the
+ * middle has the kernel of its mirror image, with a change of sign if it is odd. */
 static void columns (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -116,7 +118,7 @@ static void columns (void *context, size_t first, size_t last, int thread)
                                      * FFT_WIDE;
         for (int i = 0; i < f->pairs; i++) K[i] = kernel + (size_t) i * half * FFT_WIDE;
         for (int i = 0; i < b->dim; i++)
-            for (int j = i; j < b->dim; j++) {         /* odd along an axis that is in the pair once */
+            for (int j = i; j < b->dim; j++) {         /* odd along an axis that is i or j, not both */
                 int k = pair_of (b->dim, i, j);
                 sign[0][k] = turned && b->dim == 3 && (i == 1) != (j == 1) ? -1 : 1;
                 sign[1][k] = i < j && j == b->dim - 1 ? -sign[0][k] : sign[0][k];
@@ -136,8 +138,8 @@ static void columns (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Columns within the planes and rows back; `take` gets all fields of a row together, so that no field is
- * stored untransformed. */
+/* Backward transforms of the planes first .. last - 1: columns within the planes, then rows; `take` gets all
+ * fields of a row together, so that no result is stored. */
 static void backward_slabs (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -157,7 +159,7 @@ static void backward_slabs (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Three passes, each of independent tasks that one thread does as a whole: the same bits for any number
+/* Runs three passes, each of independent tasks that one thread does as a whole: the same bits for any number
  * of threads. */
 void pg_fft_convolve (fft *f, const fft_job *job)
 {
@@ -168,10 +170,10 @@ void pg_fft_convolve (fft *f, const fft_job *job)
     f->forward += job->in, f->back += job->out;
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
-/* The transform of one kernel, by a plain transform of a whole box [T2][T1][T0]. A kernel is real and
- * even along every axis, or odd in the two axes of its pair, so that its transform is real and has the
- * same symmetry: a quarter of the box is kept, divided by the number of places. */
+/* ---- creation ------------------------------------------------------------------------------------------ */
+/* Transforms one kernel, by a plain transform of a whole box [T2][T1][T0]. A kernel is real and even along
+ * every axis, or odd along the two axes of its pair, so that its transform is real and has the same symmetry:
+ * a quarter of the box is kept, divided by the number of places. */
 static pg_status make_kernel (fft *f, int pair, size_t n, const int *offset,
                               double (*value) (const void *, int, size_t), const void *context, double *box)
 {
@@ -204,8 +206,8 @@ done:
     return status;
 }
 
-/* Box, plans and transforms of all kernels for bonds `offset` (n x 3, whole steps). The box is longer
- * than the sites by the bonds' reach along each axis. One box is borrowed for all kernels and freed. */
+/* Makes box, plans and transforms of all kernels for bonds `offset` (n x 3, lattice steps). Along each axis
+ * the padded box is longer than the lattice by the reach of the bonds. */
 pg_status pg_fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
                       double (*value) (const void *context, int pair, size_t entry), const void *context,
                       const fft_kernels *kernels, int threads, int measure)
@@ -234,8 +236,8 @@ done:
     return status;
 }
 
-/* Fields are parts of one block, each on a boundary of 64 bytes; asking for more of them frees the former
- * ones, whose content is lost. */
+/* Makes fields as parts of one block of memory, each aligned to 64 bytes; asking for more fields frees the
+ * former ones, whose content is lost. */
 pg_status pg_fft_fields (fft *f, int fields)
 {
     pg_status status = PG_OK;
@@ -250,7 +252,7 @@ done:
     return status;
 }
 
-/* May be called for an fft of zeros. */
+/* Frees all of f, which may be all zeros. */
 void pg_fft_clear (fft *f)
 {
     pg_fft_box_clear (&f->box);

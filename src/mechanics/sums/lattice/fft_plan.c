@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sizes that transform fast, and FFTW's plans: guessed (the same everywhere), or measured and kept in a file
- * of the user's cache. */
+ * Sizes of fast transforms, and plans of FFTW: guessed (the same everywhere), or measured and kept in a file
+ * of the user's cache ("wisdom" of FFTW). */
 #include "fft.h"
 #include <errno.h>
 #include <math.h>
@@ -11,13 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The planner is not thread-safe, and what it has learned is one for the whole process: kept aside while ours
- * is used. */
+/* Held while FFTW's planner is used, which is not thread-safe and has one memory (wisdom) for the whole
+ * process. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 /* ---- sizes --------------------------------------------------------------------------------------------- */
-/* Time of a transform per place, from bench/sums_rate fcbm on an AMD EPYC (FFTW 3.3.10): a constant and a
- * share of each prime factor. */
+/* Relative time of a transform per place, from bench/sums_rate fcbm on an AMD EPYC (FFTW 3.3.10): a constant
+ * and a share of each prime factor; INFINITY for other factors than 2, 3, 5, 7. */
 static double time_of (size_t n)
 {
     static const struct {
@@ -52,9 +52,9 @@ double pg_fft_work (const fft_box *box)
     return 2.5 * n * log2 (n + 1);
 }
 
-/* ---- what the planner knows ---------------------------------------------------------------------------- */
-/* Path of the file of wisdom, $XDG_CACHE_HOME/perigal/fftw_wisdom or below ~/.cache; folders on the way
- * are made where `make` says so. 0: there is no place for it, which costs time and nothing else. */
+/* ---- wisdom -------------------------------------------------------------------------------------------- */
+/* Writes the path of the file of wisdom, $XDG_CACHE_HOME/perigal/fftw_wisdom or below ~/.cache; make: 1:
+ * makes its folders. Returns 0 if there is no place for it, so that plans have to be timed again. */
 static int wisdom_path (char *path, size_t size, int make)
 {
     const char *cache = getenv ("XDG_CACHE_HOME"), *home = getenv ("HOME");
@@ -74,7 +74,7 @@ static int wisdom_path (char *path, size_t size, int make)
 
 typedef struct { char *text; size_t n, cap; } copy;
 
-/* FFTW hands its text out letter by letter. */
+/* Appends a letter to a copy of FFTW's wisdom, which it exports letter by letter. */
 static void add_letter (char letter, void *context)
 {
     copy *c = context;
@@ -86,7 +86,8 @@ static void add_letter (char letter, void *context)
     c->text[c->n++] = letter, c->text[c->n] = 0;
 }
 
-/* Written beside the file and renamed, so that two programs that end together leave a whole one. */
+/* Writes the wisdom to a new file and renames it, so that two programs at the same time leave a complete
+ * file. */
 static void keep_wisdom (void)
 {
     char path[4096], fresh[4096 + 32];
@@ -96,14 +97,14 @@ static void keep_wisdom (void)
 }
 
 /* ---- plans --------------------------------------------------------------------------------------------- */
-/* FFT_WIDE complex columns side by side, in place. */
+/* Plans the transform of FFT_WIDE complex columns of T places side by side, in place. */
 static fftw_plan columns (size_t T, double *x, int sign, unsigned how)
 {
     fftw_iodim along = { (int) T, FFT_WIDE, FFT_WIDE }, side = { FFT_WIDE, 1, 1 };
     return fftw_plan_guru_dft (1, &along, 1, &side, (fftw_complex *) x, (fftw_complex *) x, sign, how);
 }
 
-/* All plans of a box on the workspaces x and y; 0: at least one could not be made. */
+/* Makes all plans of a box on the workspaces x and y. Returns 0 if one could not be made. */
 static int make_plans (fft_box *b, double *x, double *y, unsigned how)
 {
     int all = 1;
@@ -131,8 +132,8 @@ static void clear_plans (fft_box *b)
     }
 }
 
-/* Sites along each axis of the box (rows first; the only other axis of a plane is the last) and how many
- * places each transform has, so that no bond reaches round it. */
+/* Sets sites and places along axis k of the box (0: rows; the other axis of a 2D lattice is the last): so
+ * many places that no bond wraps around. */
 static void set_axis (fft_box *b, int k, const size_t *n, const size_t *reach)
 {
     const int dim = b->dim, from = k == 0 ? 0 : dim == 3 ? k : dim == 2 && k == 2 ? 1 : -1;
@@ -140,8 +141,8 @@ static void set_axis (fft_box *b, int k, const size_t *n, const size_t *reach)
     b->T[k] = from < 0 ? 1 : pg_fft_size (b->n[k] + reach[from], k == 0);
 }
 
-/* Plans on two workspaces, timed ones from what is remembered where all of them are. The planner's memory is
- * the process's: what others have in it is put back afterwards. Returns whether there are plans. */
+/* Makes the plans, timed ones from the file of wisdom if it has all of them. The planner's wisdom belongs to
+ * the process: that of other users is put back afterwards. Returns whether there are plans. */
 static int find_plans (fft_box *b, double *x, double *y, int measure)
 {
     char path[4096];
@@ -164,8 +165,8 @@ static int find_plans (fft_box *b, double *x, double *y, int measure)
     return made;
 }
 
-/* Sizes and plans. Measured plans may differ from machine to machine and run to run in last bits; guessed
- * ones do not, so that short runs and tests repeat exactly. */
+/* Makes sizes and plans. Results of measured plans may differ from machine to machine and run to run in last
+ * bits; those of guessed ones do not, so that short runs and tests repeat exactly. */
 pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
 {
     pg_status status = PG_OK;
@@ -195,7 +196,7 @@ void pg_fft_box_clear (fft_box *box)
     pthread_mutex_unlock (&planner);
 }
 
-/* Plans of a whole box for state_fft.c and the kernels, guessed. */
+/* Guessed plans of a whole box, for state_fft.c and for kernels. */
 fftw_plan pg_fft_plan_box (const int *T, double *x)
 {
     pthread_mutex_lock (&planner);

@@ -1,47 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Folded stencils. A block all of whose bonds live is summed by mirror images (fold_kernel.h), any other one
- * bond by bond: which way depends on the bits of bonds alone, so that a run that is resumed, or has other
+ * Folded stencils. A whole block (all bonds intact) is summed by mirror images (fold_kernel.h), any other one
+ * bond by bond: this depends on the alive bits only, so that a run that is resumed, or has another number of
  * threads, gives the same bits.
  *
- * Folding knows no bond by itself, so bonds are looked at apart, and seldom. Let e be the largest stretch
- * xi.eta / r^2 that a look at a block has found, and D_t the displacement of any point between two steps.
- * From then on the end of a bond moves against its other end by at most
+ * As folding computes no single bonds, their limits are checked separately, and seldom. Let e be the largest
+ * stretch xi.eta / r^2 at the last check of a block, and D the displacements of points in step t since then.
+ * Until now the ends of a bond have moved relative to each other by at most
  *
- *   sum_t (max D_x - min D_x + max D_y - min D_y)   over the blocks that the bonds of the block reach,
+ * sum_t (max D_x - min D_x + max D_y - min D_y),  extremes over the blocks that the bonds of the block reach,
  *
- * so that no bond of it reaches its limit s0 while e + that sum / r_min < s0. A motion of the body as a whole
- * does not count, and blocks far from a crack are looked at every hundredth step or so. */
+ * so that no bond of it reaches its limit s0 while e + this sum / r_min < s0. A motion of the body as a whole
+ * does not count, and blocks far from a crack are checked every hundredth step or so. */
 #include "folded_stencil.h"
 #include <math.h>
 #include <string.h>
 
-enum { LANES = 8 };                                    /* blocks at once, a number the compiler knows */
+enum { LANES = 8 };                                    /* blocks of a row that are treated at once */
 
 struct folding {
-    pg_fold   fold;                                    /* what the loops read */
-    double   *pull, *slope, *low, *high;             /* ... owned */
-    size_t    rows;                                    /* of sites */
+    pg_fold   fold;                                    /* arguments of the loops */
+    double   *pull, *slope, *low, *high;               /* arrays of `fold`, owned */
+    size_t    rows;                                    /* rows of sites */
     double    limit, shortest;  /* critical stretch s0 less rounding; length of the shortest bond, m */
-    unsigned char *whole;                              /* of each block: all its bonds live */
-    unsigned *from;  /* of each block: place whose displacement is taken off in its group of blocks */
-    double   *most, *drift;                            /* of each block: e; the sum since, m */
-    /* low, high of x, y of each block and of those beside it in its row (4 x rows x wide); wide: blocks of a
-     * row, up to a multiple of LANES */
+    unsigned char *whole;                              /* 1: all bonds of the block are intact (blocks) */
+    unsigned *from;  /* place whose displacement is subtracted in the block's group (blocks) */
+    double   *most, *drift;                            /* e of each block; the sum since its check, m */
+    /* Least, largest change of u_x, u_y over each block and those beside it in its row, m (4 x rows x wide);
+     * wide: blocks of a row, rounded up to a multiple of LANES. */
     double   *span;
     size_t    wide;
-    size_t    looks[MAX_THREADS], folded[MAX_THREADS];
-    size_t    sums;
+    size_t    looks[MAX_THREADS], folded[MAX_THREADS]; /* numbers of checks and of folded blocks, by thread */
+    size_t    sums;                                    /* number of sums of forces */
 };
 
-/* ---- which stencils ------------------------------------------------------------------------------------ */
-/* The bond of the stencil with this offset, or n. */
+/* ---- creation ------------------------------------------------------------------------------------------ */
+/* Returns the bond of the stencil with this offset; st->n: there is none. */
 static size_t bond_at (const pg_stencil *st, int x, int y)
 {
     for (size_t j = 0; j < st->n; j++) if (st->offset[3 * j] == x && st->offset[3 * j + 1] == y) return j;
     return st->n;
 }
 
-/* Are the products a x^2, a x y, a y^2 of a bond those of its mirror images, but for signs? */
+/* Is the stencil even: has each bond its three mirror images, with the same constants but for signs? */
 static int is_even (const stencil *s)
 {
     const pg_stencil *st = &s->setting.sums->stencil;
@@ -64,7 +64,7 @@ static int is_even (const stencil *s)
     return 1;
 }
 
-/* The constants of the stencil by columns and rows; its reach has room in the loops. */
+/* Sets the constants of the stencil by columns and rows (fold.pull), slope, own and reach. */
 static pg_status set_pulls (struct folding *g, stencil *s)
 {
     pg_status status = PG_OK;
@@ -92,9 +92,9 @@ done:
     return status;
 }
 
-/* Groups of blocks are fixed parts of a row: the place whose displacement is taken off is near the middle of
- * the group, the first point of its third block where it has one, whichever of its blocks are summed
- * together. */
+/* Sets `from`. Groups are PG_FOLD_BLOCKS consecutive blocks of a row: the place whose displacement is
+ * subtracted is the first point of the third block of the group if it has one (else of its first block with
+ * points), whichever of its blocks are summed together. */
 static void set_groups (struct folding *g, const stencil *s)
 {
     size_t nx = (size_t) s->setting.sums->sites.count[0];
@@ -102,15 +102,15 @@ static void set_groups (struct folding *g, const stencil *s)
         size_t at = s->block[k].site % nx / PG_BLOCK, middle = at - at % PG_FOLD_BLOCKS + PG_FOLD_BLOCKS / 2;
         const int *row = s->block_at + s->block[k].base / s->pitch * s->row_blocks;
         size_t j = middle - PG_FOLD_BLOCKS / 2;
-        while (row[j] < 0) j++;                        /* ends at block k at the latest */
+        while (row[j] < 0) j++;                        /* stops at block k at the latest, which has points */
         if (middle < s->row_blocks && row[middle] >= 0) j = middle;
         const pg_block *b = s->block + row[j];
         g->from[k] = (unsigned) (b->base + (size_t) __builtin_ctz (b->present));
     }
 }
 
-/* Sets up the folded stencil: one sum over pairs of opposite bonds for blocks all whose bonds live. *out
- * stays NULL where it cannot be (outside the plane, finite stretch, solver.plain). */
+/* Makes the folded stencil. *out stays NULL if it cannot be used (not 2D, finite stretch, weights of points,
+ * not even, solver.plain). */
 pg_status folding_create (struct folding **out, stencil *s)
 {
     pg_status status = PG_OK;
@@ -161,13 +161,13 @@ void folding_renew (stencil *s)
 void folding_lose (stencil *s, size_t k) { s->fold->whole[k] = 0; }
 
 /* ---- the bound ----------------------------------------------------------------------------------------- */
-enum { LOW = 0, HIGH = 1 };                            /* of component d: span number 2 d and 2 d + 1 */
+enum { LOW = 0, HIGH = 1 };                            /* spans of component d: 2 d + LOW and 2 d + HIGH */
 static double *span_of (const struct folding *g, int which, size_t row)
 {
     return g->span + ((size_t) which * g->rows + row) * g->wide;
 }
 
-/* Extreme of a block whose number is k, as a maximum (that of -u for the least); -1: no block, and none. */
+/* Returns an extreme of block k as a maximum (for LOW that of -u), m; k = -1: no block: -INFINITY. */
 static double extreme_of (const struct folding *g, int which, int k)
 {
     if (k < 0) return -INFINITY;
@@ -175,7 +175,8 @@ static double extreme_of (const struct folding *g, int which, int k)
     return which & HIGH ? g->high[at] : -g->low[at];
 }
 
-/* Along a row: the extremes of a block and of those beside it, as bonds reach less than a block. */
+/* Computes the spans of rows first .. last - 1: extremes over each block and those beside it, as bonds reach
+ * less than a block. */
 static void widen_rows (void *context, size_t first, size_t last, int thread)
 {
     const stencil *s = context;
@@ -196,7 +197,7 @@ static void widen_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* How far apart the least of `low` and the largest of `high` are over some rows, for LANES blocks. */
+/* Adds to out the largest `high` minus the least `low` over some rows, for LANES blocks. */
 PG_WIDE static void spread_of_rows (const double *low, const double *high, size_t wide, size_t rows,
                                     double *out)
 {
@@ -208,7 +209,8 @@ PG_WIDE static void spread_of_rows (const double *low, const double *high, size_
     for (size_t l = 0; l < LANES; l++) out[l] += most[l] - least[l];
 }
 
-/* Across rows, and the sum of what the extremes of this step allow. */
+/* Takes the extremes over the rows within reach, and adds the changes that they allow to `drift`, for the
+ * blocks of rows first .. last - 1. */
 static void widen_columns (void *context, size_t first, size_t last, int thread)
 {
     const stencil *s = context;
@@ -251,15 +253,15 @@ void folding_spread (stencil *s, const double *u)
 /* ---- forces -------------------------------------------------------------------------------------------- */
 typedef struct { stencil *s; pg_block_loop loop, again; int breaking; } pass;
 
-/* Bonds over their limit die; where nothing dies the block stays whole. */
+/* Breaks the bonds of block k over their limit. */
 static void kill_in (stencil *s, size_t k, int thread)
 {
     pg_status now = pg_stencil_loop_kill (s, k, &s->found[thread]);
     if (now != PG_OK) s->failed[thread] = now;
 }
 
-/* A look at the bonds of a whole block, unless the bound says that none can be at its limit. NAN counts as
- * unknown, hence the negation. */
+/* Checks the bonds of a whole block, unless the bound excludes that one is at its limit. NAN counts as at the
+ * limit, hence the negation. */
 static void look (stencil *s, size_t k, int thread)
 {
     struct folding *g = s->fold;
@@ -268,7 +270,8 @@ static void look (stencil *s, size_t k, int thread)
     if (!(g->most[k] < g->limit)) kill_in (s, k, thread);
 }
 
-/* Blocks one by one where they are not whole; whole ones of a group that follow each other together. */
+/* Forces of the blocks first .. last - 1: those that are not whole one by one; consecutive whole ones of a
+ * group together. */
 static void force_blocks (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -309,8 +312,8 @@ void folding_counts (const stencil *s, pg_bond_loop_counts *out)
     const struct folding *g = s->fold;
     out->sums = (long) g->sums, out->blocks = g->sums * s->nblock;
     for (int t = 0; t < MAX_THREADS; t++) out->looks += g->looks[t], out->folded += g->folded[t];
-    /* Half of the time of a block bond by bond, 7 bonds a nanosecond (AVX-512, one thread of an AMD EPYC); a
-     * look takes as long as a block. */
+    /* A folded block saves half of its time bond by bond, at 7 bonds per nanosecond (AVX-512, one thread of
+     * an AMD EPYC); a check takes as long as a block bond by bond. */
     double block = 1e-9 * PG_BLOCK * (double) s->job.n / 7;
     out->saved = block * (0.5 * (double) out->folded - (double) out->looks);
 }

@@ -6,41 +6,43 @@
  *   f_a = V chi {Q_a + alpha G_a + beta R_a - sum_b u_b (H_ab + beta D_ab)}, D_ab = C_ab * chi, H_ab = C_ab *
  *       (chi beta)
  *   Q_a   = g_a * (chi alpha) + sum_b C_ab * (chi beta u_b),   R_a = sum_b C_ab * (chi u_b):
- * 2 d + 1 transforms forth and as many back. Blocks of 32 sites with a cut bond are summed bond by bond
- *     instead, by the loops of state_stencil.c. Each
- * transform is the work of one thread: the same bits for any number of them. */
+ * 2 d + 1 transforms forward and as many backward. Blocks of 32 sites with a broken bond (cut blocks) are
+ * summed bond by bond instead, by the loops of state_stencil.c. Each transform is done by one thread, so that
+ * the bits do not depend on the number of threads. */
 #include "fft_convolution.h"
 #include "state_stencil.h"
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 7 };                                     /* fields of a sum */
+enum { MOST = 7 };                                     /* most fields of a sum */
 typedef struct {
-    state   base;                                      /* first: a state_stencil */
+    state   base;                                      /* first, as loops take a state or a stencil */
     int     dim, pairs;
     size_t  n[3], T[3], wide, complexes;  /* sites, places; doubles of a row, complex numbers of a field */
-    fftw_plan forth, back;
+    fftw_plan forth, back;                             /* forward, backward */
     double *field[MOST];                               /* u, beta u, alpha (2 complexes) */
-    /* of the kernels' transforms the part that is not 0, over the number of places (complexes) */
+    /* Real (C) or imaginary (S) parts of the kernels' transforms, over the number of places (complexes); the
+     * other parts are 0. */
     double *S[3], *C[6];
-    double *chi, *G[3], *D[6], *H[6];                  /* (padded places) */
-    int    *bits;                                      /* of each block while all bonds live */
+    double *chi, *G[3], *D[6], *H[6];                  /* padded (places) */
+    int    *bits;                                      /* intact bonds of each block at the start */
     int    *cut, ncut;                                 /* blocks that have lost some, ascending */
-    unsigned char *is_cut;
-    int     stale;                                     /* H is that of an earlier beta */
-    double  centre[3];                                 /* mean displacement, taken off, m */
-    transformer bound;                                 /* no sums: what fft_bound.c looks at */
-    int    *suspect;                                   /* blocks */
+    unsigned char *is_cut;                             /* 1: the block has lost some (blocks) */
+    int     stale;                                     /* 1: H is out of date, as beta has changed */
+    double  centre[3];                                 /* mean displacement, which is subtracted, m */
+    transformer bound;                                 /* makes no sums: data for fft_bound.c */
+    int    *suspect;                                   /* list of blocks that may have a bond at its limit */
     pg_bond_loop_counts count;
 } convolver;
 
 /* Number of a pair of axes in either order. */
 static int pair_of (int dim, int a, int b) { return a > b ? fft_pair (dim, b, a) : fft_pair (dim, a, b); }
 
-/* What the stencil of this theory refuses; it is linear in u already. */
+/* Returns why transforms cannot sum these bonds, NULL: they can. Reasons of the state-based stencil apply
+ * too. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
-    /* blocks count as cut where bonds are lost after the start */
+    /* bonds that are missing from the start do not make blocks cut, so that there may be none */
     if (setting->sums->cloud->between) return "slots, gaps or corners may part neighbours of this body";
     return pg_bond_loop_state_stencil.refusal (setting);
 }
@@ -61,14 +63,14 @@ static void release (void *self)
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* row of sites, padded place of its first site */
+/* Work on a row of sites, whose first site is at padded place `place`. */
 typedef void (*rows_of) (convolver *c, size_t row, size_t place);
 typedef struct { convolver *c; rows_of work; } rowing;
 
-/* Rows of sites in the box. */
+/* Number of rows of sites in the box. */
 static size_t rows (const convolver *c) { return c->n[1] * c->n[2]; }
 
-/* Hands each row of a range to the work, with the padded place where it begins. */
+/* Does the work on the rows first .. last - 1, each with the padded place where it begins. */
 static void do_rows (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -82,13 +84,13 @@ static void do_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* All rows, by threads. */
+/* Does the work on all rows, by threads. */
 static void each_row (convolver *c, rows_of work)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), rows (c), do_rows, &(rowing) { c, work });
 }
 
-/* Of a field: where the row's first site is */
+/* Returns where the first site of a row is in a field. */
 static double *row_of (const convolver *c, int field, size_t row)
 {
     return c->field[field] + (row / c->n[1] * c->T[1] + row % c->n[1]) * c->wide;
@@ -97,7 +99,7 @@ static double *row_of (const convolver *c, int field, size_t row)
 /* ---- transforms ---------------------------------------------------------------------------------------- */
 typedef struct { convolver *c; int first, back; } transforming;
 
-/* Some fields, each transformed whole and in place by one thread. */
+/* Transforms fields t->first + first .. last - 1, each in place by one thread. */
 static void transform_fields (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -109,7 +111,7 @@ static void transform_fields (void *context, size_t first, size_t last, int thre
     }
 }
 
-/* n fields from `first` on, forth or back; counted for reports. */
+/* Transforms n fields from `first` on, forward or backward, and counts them for reports. */
 static void transform (convolver *c, int first, int n, int back)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), (size_t) n, transform_fields,
@@ -117,13 +119,13 @@ static void transform (convolver *c, int first, int n, int back)
     *(back ? &c->count.back : &c->count.forward) += n;
 }
 
-/* Places without a site must be zero before a field is transformed. */
+/* Zeroes a field: places without a site must be zero before it is transformed. */
 static void clear_field (convolver *c, int k) { memset (c->field[k], 0, 2 * c->complexes * sizeof (double)); }
 
 typedef void (*places_of) (convolver *c, size_t first, size_t last);
 typedef struct { convolver *c; places_of work; } multiplying;
 
-/* A range of the transformed places. */
+/* Does the work on the transformed places first .. last - 1. */
 static void do_places (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -131,7 +133,7 @@ static void do_places (void *context, size_t first, size_t last, int thread)
     m->work (m->c, first, last);
 }
 
-/* All transformed places, by threads. */
+/* Does the work on all transformed places, by threads. */
 static void each_place (convolver *c, places_of work)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), c->complexes, do_places,
@@ -150,8 +152,8 @@ static void multiply_dilatation (convolver *c, size_t first, size_t last)
     }
 }
 
-/* R_a = sum_b C_ab u_b takes the place of u_a, Q_a = i S_a alpha + sum_b C_ab (beta u_b) that of beta
- * u_a. part: real, imaginary; i turns one into the other. */
+/* At each place replaces u_a by R_a = sum_b C_ab u_b, and beta u_a by Q_a = i S_a alpha + sum_b C_ab (beta
+ * u_b). part: 0 real, 1 imaginary. */
 static void multiply_forces (convolver *c, size_t first, size_t last)
 {
     int d = c->dim;
@@ -172,8 +174,8 @@ static void multiply_forces (convolver *c, size_t first, size_t last)
         }
 }
 
-/* ---- what does not change with the displacement -------------------------------------------------------- */
-/* Where an offset stands in the box of a kernel: negative ones at its end, as convolutions go round. */
+/* ---- kernels and sums of the intact body --------------------------------------------------------------- */
+/* Returns where an offset is in the box of a kernel: negative ones at its end, as convolutions are cyclic. */
 static size_t place_in_box (const convolver *c, const int *offset)
 {
     size_t at[3];
@@ -181,8 +183,8 @@ static size_t place_in_box (const convolver *c, const int *offset)
     return (at[2] * c->T[1] + at[1]) * c->wide + at[0];
 }
 
-/* Transform of one kernel over the number of places: the real part of an even C_ab (b >= 0), or minus the
- * imaginary one of an odd g_a (b < 0). The other part is zero by symmetry. */
+/* Writes the transform of one kernel, over the number of places: the real part of an even C_ab (b >= 0), or
+ * minus the imaginary part of an odd g_a (b < 0). The other part is zero by symmetry. */
 static void make_kernel (convolver *c, double *out, int a, int b)
 {
     const pg_stencil *st = &c->base.base.setting.sums->stencil;
@@ -200,13 +202,13 @@ static void make_kernel (convolver *c, double *out, int a, int b)
         out[k] = (b < 0 ? -c->field[0][2 * k + 1] : c->field[0][2 * k]) / (double) places;
 }
 
-/* Row of chi, the weights of the points. */
+/* Writes a row of chi, the weights of the points, to field 2 dim. */
 static void fill_chi (convolver *c, size_t row, size_t place)
 {
     memcpy (row_of (c, 2 * c->dim, row), c->chi + place, c->n[0] * sizeof (double));
 }
 
-/* Row of chi beta, which follows broken bonds where weighted volumes do. */
+/* Writes a row of chi beta to field 2 dim. */
 static void fill_chi_beta (convolver *c, size_t row, size_t place)
 {
     double *x = row_of (c, 2 * c->dim, row);
@@ -214,7 +216,7 @@ static void fill_chi_beta (convolver *c, size_t row, size_t place)
     for (size_t k = 0; k < c->n[0]; k++) x[k] = chi[k] * beta[k];
 }
 
-/* Copies the rows of sites from the box of the transforms to the padded array of the bond loops. */
+/* Copies the rows of field 0 to a padded array of the bond loops. */
 static void copy_rows (convolver *c, double *out)
 {
     const stencil *s = &c->base.base;
@@ -226,7 +228,8 @@ static void copy_rows (convolver *c, double *out)
     }
 }
 
-/* out = kernel * (the field 2 dim, transformed) */
+/* out = convolution of a kernel with field 2 dim, which is transformed already; odd: 1: kernel S, 0: kernel
+ * C. */
 static void convolve_one (convolver *c, const double *kernel, int odd, double *out)
 {
     const double *x = c->field[2 * c->dim];
@@ -238,7 +241,7 @@ static void convolve_one (convolver *c, const double *kernel, int odd, double *o
     copy_rows (c, out);
 }
 
-/* H_ab = C_ab * (chi beta), anew after beta has changed. */
+/* Computes H_ab = C_ab * (chi beta) anew after beta has changed. */
 static void renew_beta (convolver *c)
 {
     clear_field (c, 2 * c->dim);
@@ -248,7 +251,7 @@ static void renew_beta (convolver *c)
     c->stale = 0;
 }
 
-/* Kernels and the sums G and D of the intact body, once. */
+/* Makes the kernels, and the sums G and D of the intact body, once. */
 static void make_fixed (convolver *c)
 {
     for (int a = 0; a < c->dim; a++) make_kernel (c, c->S[a], a, -1);
@@ -263,7 +266,7 @@ static void make_fixed (convolver *c)
 }
 
 /* ---- cut blocks ---------------------------------------------------------------------------------------- */
-/* How many bonds of a block live. */
+/* Counts the intact bonds of a block. */
 static int bits_of (const stencil *s, size_t block)
 {
     int sum = 0;
@@ -271,14 +274,14 @@ static int bits_of (const stencil *s, size_t block)
     return sum;
 }
 
-/* The cut blocks in their order. */
+/* Lists the cut blocks, ascending. */
 static void list_cut (convolver *c)
 {
     c->ncut = 0;
     for (size_t k = 0; k < c->base.base.nblock; k++) if (c->is_cut[k]) c->cut[c->ncut++] = (int) k;
 }
 
-/* A block is cut if fewer of its bonds live than at first. */
+/* Sets is_cut of the blocks first .. last - 1: fewer bonds are intact than at the start. */
 static void look_at_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -286,7 +289,7 @@ static void look_at_blocks (void *context, size_t first, size_t last, int thread
     for (size_t k = first; k < last; k++) c->is_cut[k] = bits_of (&c->base.base, k) != c->bits[k];
 }
 
-/* From a whole new state (changes NULL), or the blocks whose bonds have died. */
+/* Marks and lists the cut blocks: all anew (changes NULL), or those of the bonds that broke. */
 static void mark_cut (convolver *c, const pg_changes *changes)
 {
     const stencil *s = &c->base.base;
@@ -304,8 +307,8 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
     mark_cut (self, changes);
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
-/* Fields of 2 dim + 1 transforms, and what is kept for padded places. */
+/* ---- creation ------------------------------------------------------------------------------------------ */
+/* Allocates the 2 dim + 1 fields that are transformed, the kernels, and the padded arrays. */
 static pg_status allocate (convolver *c)
 {
     pg_status status = PG_OK;
@@ -330,8 +333,7 @@ done:
     return status;
 }
 
-/* A stencil of bonds with its weighted volumes, and beside it the box: longer than the sites by the reach
- * of the bonds, as for the other transforms. */
+/* Makes a state-based stencil, and the padded box: longer than the lattice by the reach of the bonds. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
@@ -363,8 +365,8 @@ done:
     return status;
 }
 
-/* Bytes of one sum by the point: each field is read and written about six times on its way there and
- * back. */
+/* Memory traffic of one sum, bytes per point: each field is read and written about six times in forward and
+ * backward transforms. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const convolver *c = self;
@@ -374,8 +376,8 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* The mean displacement of all points, m. Convolutions round by the size of u; forces depend on
- * differences alone. */
+/* Computes the mean displacement of all points, m, which is subtracted: rounding errors of convolutions have
+ * the size of u, and forces depend on differences only. */
 static void take_mean (convolver *c, const double *u)
 {
     size_t n = c->base.base.setting.sums->cloud->n, dim = (size_t) c->dim;
@@ -386,8 +388,8 @@ static void take_mean (convolver *c, const double *u)
     }
 }
 
-/* Displacements less their mean times chi and chi beta; the padded ones lose the mean for good, but where
- * there is no point. */
+/* Fills a row of fields with displacements less their mean, times chi and times chi beta. job.u loses the
+ * mean, too; places without a point stay 0. */
 static void fill_displacements (convolver *c, size_t row, size_t place)
 {
     const double *chi = c->chi + place, *beta = c->base.beta + place;
@@ -412,7 +414,7 @@ static void take_dilatation (convolver *c, size_t row, size_t place)
     }
 }
 
-/* Row of chi alpha. */
+/* Writes a row of chi alpha to field 2 dim. */
 static void fill_dilatation (convolver *c, size_t row, size_t place)
 {
     double *x = row_of (c, 2 * c->dim, row);
@@ -440,19 +442,19 @@ static void take_forces (convolver *c, size_t row, size_t place)
     }
 }
 
-/* Cut blocks once more, bond by bond: what the transforms left there is overwritten. */
+/* Sums the cut blocks bond by bond, over the results of the transforms. */
 static void redo_cut (convolver *c, pg_block_loop loop)
 {
     if (c->ncut) pg_stencil_loop_run_some (&c->base.base, loop, NULL, NULL, (size_t) c->ncut, c->cut, NULL);
 }
 
-/* All fields of displacements, before rows are filled. */
+/* Zeroes all fields of displacements before their rows are filled. */
 static void clear_margins (convolver *c)
 {
     for (int k = 0; k < 2 * c->dim; k++) clear_field (c, k);
 }
 
-/* alpha of all points from displacements that have been filled in and transformed */
+/* Computes alpha of all points from displacements that have been filled in and transformed. */
 static void dilate (convolver *c)
 {
     const stencil *s = &c->base.base;
@@ -462,8 +464,8 @@ static void dilate (convolver *c)
     redo_cut (c, s->kernels->dilate[c->dim - 2][PG_CHECK_NONE][s->p != NULL]);
 }
 
-/* Which blocks break is decided by their bonds at the displacements as given; sums then come from
- * displacements less their mean. */
+/* Forces f, N. Bonds are first compared with their limits at the displacements as given; sums are then made
+ * from displacements less their mean. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * State-based sums (linear peridynamic solid) over the bonds of points on a lattice: a loop for the
- * dilatation of every point, one for the forces, on the blocks and bits of stencil_loop.c. Breaking: bonds
- * over their limit die in the first loop. theory B6. */
+ * dilatation of every point, one for the forces, on the blocks and alive bits of stencil_loop.c. Bonds over
+ * their limit are broken in the first loop. theory B6. */
 #include "state_stencil.h"
 #include <math.h>
 #include <string.h>
 
-/* What holds for lists, stencils and transforms of this theory alike. */
+/* Returns why state-based sums are impossible, whether by list, stencil or transforms; NULL: they are not. */
 const char *pg_state_loop_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite)
@@ -34,8 +34,8 @@ void pg_state_loop_free (void *self)
 }
 
 /* ---- q ------------------------------------------------------------------------------------------------- */
-/* Weighted volume q = sum w r^2 V_j of a point by the bits of its bonds, and what follows from it: factor
- * A d / q^2 and beta B / q, which the loops read at padded places. */
+/* Computes the weighted volume q = sum w r^2 V_j of point i over the bonds whose bits are set, and from it,
+ * at the padded place of the point, factor A d / q^2 and beta B / q. */
 static void weigh (state *s, size_t i)
 {
     const stencil *b = &s->base;
@@ -51,34 +51,34 @@ static void weigh (state *s, size_t i)
     s->factor[place] = state_factor (&b->setting, i, q), s->beta[place] = state_beta (&b->setting, i, q);
 }
 
-/* A range of points, for pg_parallel. */
+/* `weigh` for points first .. last - 1. */
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
     for (size_t i = first; i < last; i++) weigh (context, i);
 }
 
-/* All points, by threads. */
+/* `weigh` for all points, by threads. */
 static void weigh_all (state *s)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s);
 }
 
-/* A block that has lost bonds weighs its points anew. */
+/* `weigh` for the points of block k, which has lost bonds. */
 static void weigh_block (stencil *b, size_t k)
 {
     for (uint32_t left = b->block[k].present; left; left &= left - 1)
         weigh ((state *) b, (size_t) b->job.point[b->block[k].site + (size_t) __builtin_ctz (left)]);
 }
 
-/* What is to be done about a block that has lost bonds; NULL: nothing, weighted volumes stay those of the
- * start. */
+/* Returns the function to be called for blocks that lost bonds; NULL: none, as weighted volumes stay those of
+ * the start. */
 stencil_lost pg_state_loop_lost (const stencil *s)
 {
     return s->setting.sums->rule.follow ? weigh_block : NULL;
 }
 
-/* Bits first, then the weighted volumes that follow them. */
+/* Updates the alive bits, then the weighted volumes if these follow the intact bonds. */
 void pg_state_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     state *s = self;
@@ -89,8 +89,8 @@ void pg_state_loop_update (void *self, const unsigned char *alive, const pg_chan
         weigh (s, pg_stencil_loop_owner (&s->base, changes->bond[c]));
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
-/* w V, w V^2 and 1 / r^2 of each bond of the stencil, w = k beta / r. */
+/* ---- creation ------------------------------------------------------------------------------------------ */
+/* Sets w V, w V^2 and 1 / r^2 of each bond of the stencil, w = k beta / r. */
 static void set_terms (state *s)
 {
     stencil *b = &s->base;
@@ -102,8 +102,8 @@ static void set_terms (state *s)
     }
 }
 
-/* `counted`: bonds by which the weighted volumes are to be taken, for example without those of
- * pre-cracks; the bits are set to these while volumes are summed, and back. */
+/* Makes the loop. setting->counted: the bonds that weighted volumes count, for example without those that
+ * pre-cracks cut: the alive bits are set to these while volumes are summed, then back to all bonds. */
 pg_status pg_state_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
                                 size_t bytes)
 {
@@ -126,7 +126,7 @@ done:
     return status;
 }
 
-/* The theory needs nothing beside this. */
+/* Makes the loop by stencil, which needs no more than a `state`. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return pg_state_loop_create (self, setting, set, sizeof (state));
@@ -141,8 +141,8 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* Two passes: dilatations, in which bonds over their limit die, and forces from the dilatations of both
- * ends. */
+/* Forces f, N, in two passes: dilatations, in which bonds over their limit are broken, and forces from the
+ * dilatations of both ends. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -163,7 +163,7 @@ done:
     return status;
 }
 
-/* Stored energy, J; the energy densities of the points in W unless that is NULL */
+/* Returns the stored energy, J; W: energy densities of the points, J/m^3, or NULL. */
 static double sum_energies (state *s, const double *u, double *W)
 {
     stencil *b = &s->base;
@@ -179,7 +179,7 @@ pg_status pg_state_loop_energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-/* theta = alpha q / A, summed with a factor of its own */
+/* theta is summed as alpha is, with the factor d / q in place of A d / q^2. */
 pg_status pg_state_loop_dilatation (void *self, const double *u, double *theta, double *q)
 {
     pg_status status = PG_OK;

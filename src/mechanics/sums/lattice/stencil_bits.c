@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which bonds of a stencil live: a bit for each bond and site, all anew or those of some bonds. */
+ * Alive bits: a bit for each bond of the stencil and each site, 1: the bond is intact. Sets all, or those of
+ * some bonds. */
 #include "folded_stencil.h"
 #include <string.h>
 
-/* Bond of the stencil that jumps so far; looked for from `from` on, as families ascend like the stencil
- * mostly, then by bisection; n: none. */
+/* Returns the bond of the stencil with this jump (padded places to the neighbour); n: none. It is searched
+ * from `from` on, as families mostly ascend as the stencil does, then by bisection. */
 static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
 {
     size_t n = s->job.n, low = 0, high = n;
@@ -17,14 +18,15 @@ static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
     return low < n && s->jump[low] == jump ? low : n;
 }
 
-/* How many padded places lie between the ends of an entry of the family */
+/* Returns the jump of an entry of the family: padded places from point i to its neighbour. */
 static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
 {
     return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
 }
 
-/* Sets the bits of live bonds of point i; live NULL: all live. exempt: bits of those that may break are
- * set as well. PG_E_USAGE: a bond that the stencil has not, so that the family is of other points. */
+/* Sets the alive bits of the intact bonds of point i (live NULL: all are intact); exempt not NULL: also the
+ * bits of bonds that may break. PG_E_USAGE: a bond is not one of the stencil, so that the family belongs to
+ * other points. */
 static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, const unsigned char *exempt)
 {
     pg_status status = PG_OK;
@@ -53,7 +55,7 @@ typedef struct {
     size_t lost[MAX_THREADS];
 } renewal;
 
-/* Has point i all bonds of the stencil, each at its place in the family, and do all of them live? */
+/* Has point i all bonds of the stencil, in the same order in the family, and are all of them intact? */
 static int has_all (const stencil *s, size_t i, const unsigned char *live)
 {
     const pg_family *family = s->setting.family;
@@ -65,8 +67,8 @@ static int has_all (const stencil *s, size_t i, const unsigned char *live)
     return others == 0;
 }
 
-/* Sets the bits of a block whose points have all their bonds, word by word; 0: they have not. Where some
- * bonds never break (exempt), which of them may is still to be seen bond by bond. */
+/* Sets the bits of a block whose points all have all bonds, word by word; returns 0 if they have not. Not
+ * with `exempt`: which bonds may break has to be found bond by bond. */
 static int set_whole (stencil *s, const pg_block *block, const unsigned char *live,
                       const unsigned char *exempt)
 {
@@ -77,7 +79,7 @@ static int set_whole (stencil *s, const pg_block *block, const unsigned char *li
     return 1;
 }
 
-/* All bits of some blocks, from the live bonds of the family */
+/* Sets all bits of the blocks first .. last - 1 from the intact bonds of the family. */
 static void renew_blocks (void *context, size_t first, size_t last, int thread)
 {
     renewal *r = context;
@@ -93,8 +95,8 @@ static void renew_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* All threads; a bond of the family that the stencil has not is found by one of them, and its message is made
- * again on this one, as messages belong to threads. */
+/* Sets the bits of all blocks by threads. If one finds a bond that is not in the stencil, its error is
+ * repeated on this thread, as messages belong to threads. */
 pg_status pg_stencil_bits_renew (stencil *s, const unsigned char *live, const unsigned char *exempt)
 {
     pg_status status = PG_OK;
@@ -106,12 +108,13 @@ done:
     return status;
 }
 
-/* changes NULL: all bits anew, from the live bonds of the family; else the bits of these bonds alone. */
+/* Updates the alive bits: changes NULL: all, from the mask `alive` of the family; else those of the bonds
+ * that broke. */
 void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     stencil *s = self;
     if (!changes) {
-        (void) pg_stencil_bits_renew (s, alive, NULL);     /* every bond was found when this was created */
+        (void) pg_stencil_bits_renew (s, alive, NULL);     /* cannot fail, as creation has found every bond */
         if (s->fold) folding_renew (s);
         return;
     }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements
- * in padded arrays. */
+ * Sums over the bonds of points on a lattice: sites in blocks of 32 of a row, one alive bit per bond and
+ * site, displacements in padded arrays. */
 #include "folded_stencil.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 
-/* One set of numbers per bond of the stencil serves all points, so that nothing may differ from point to
- * point but the weights. */
+/* A stencil has one set of numbers per bond for all points, so that only weights may differ from point to
+ * point. */
 const char *pg_stencil_loop_refusal (const pg_bond_loop_setting *setting)
 {
     const pg_sums *sums = setting->sums;
@@ -38,15 +38,15 @@ void pg_stencil_loop_free (void *self)
 }
 
 /* ---- places -------------------------------------------------------------------------------------------- */
-/* Padded place of a site (x, y, z). A halo as wide as the bonds reach lies about the sites, so that a
- * neighbour is always `jump` places away, whether there is a point or not. */
+/* Returns the padded place of a site (x, y, z). Around the sites there is a margin as wide as the reach of
+ * bonds, so that a neighbour is always `jump` places away, whether there is a point or not. */
 static size_t place_of (const stencil *s, const size_t *at)
 {
     return ((at[2] + (size_t) s->reach[2]) * s->rows + at[1] + (size_t) s->reach[1]) * s->pitch
            + (size_t) s->left + at[0];
 }
 
-/* Block and bit of a padded place */
+/* Returns the block of a padded place, and the bit of its site. */
 size_t pg_stencil_loop_block (const stencil *s, size_t place, unsigned *bit)
 {
     size_t row = place / s->pitch, x = place % s->pitch - (size_t) s->left;
@@ -54,8 +54,8 @@ size_t pg_stencil_loop_block (const stencil *s, size_t place, unsigned *bit)
     return (size_t) s->block_at[row * s->row_blocks + x / PG_BLOCK];
 }
 
-/* The padded box: reach of the bonds along each axis; rows begin at a multiple of 8 places and end after
- * whole blocks of 32, so that vectors never cross a row; jump: padded places from a point to each
+/* Lays out the padded box: reach of the bonds along each axis; rows begin at a multiple of 8 places and end
+ * after whole blocks of 32, so that vectors never cross a row; jump: padded places from a point to each
  * neighbour, the same for all points. */
 static pg_status lay_out (stencil *s)
 {
@@ -90,9 +90,9 @@ done:
     return status;
 }
 
-/* Blocks of 32 sites of a row that have points, in the order of sites; `first`: their first point where
- * all have consecutive numbers, by which copies need no lookup. block_at finds the block of a padded
- * place. */
+/* Lists the blocks of 32 sites of a row that have points, in the order of sites, and sets block_at and the
+ * padded places of points. `first` of a block: its first point if all its points have consecutive numbers, so
+ * that copies need no lookup. */
 static pg_status find_blocks (stencil *s)
 {
     pg_status status = PG_OK;
@@ -125,7 +125,7 @@ done:
 }
 
 /* ---- bonds -------------------------------------------------------------------------------------------- */
-/* Small bodies are done by one thread: starting others costs more than they save. */
+/* Returns the number of threads: 1 for small bodies, where starting others costs more than they save. */
 int pg_stencil_loop_threads (const stencil *s)
 {
     int t = s->setting.threads;
@@ -133,7 +133,7 @@ int pg_stencil_loop_threads (const stencil *s)
     return t < MAX_THREADS ? t : MAX_THREADS;
 }
 
-/* The point whose family has this entry, by bisection of the starts. */
+/* Returns the point whose family has this entry, by bisection of the starts. */
 size_t pg_stencil_loop_owner (const stencil *s, size_t entry)
 {
     const size_t *start = s->setting.family->start;
@@ -146,8 +146,8 @@ size_t pg_stencil_loop_owner (const stencil *s, size_t entry)
     return low;
 }
 
-/* The numbers of each bond of the stencil, the same for all points (pg_block_job): xi, the pull a xi or a
- * r^2, the limit as it is compared, r and r^2, what is stored. a = c V^2 k beta / r^3, N/m^3. */
+/* Sets the numbers of each bond of the stencil (pg_block_job.term), the same for all points: xi, pull a xi or
+ * a r^2, limit of the compared measure, r^2 and r, stored. a = c V^2 k beta / r^3, N/m^3. */
 static pg_status set_terms (stencil *s)
 {
     pg_status status = PG_OK;
@@ -172,12 +172,12 @@ done:
     return status;
 }
 
-/* Padded places of the box, with a halo before the first row. */
+/* Returns the number of padded places, with the margin before the first row. */
 size_t pg_stencil_loop_places (const stencil *s) { return s->pitch * s->rows * s->planes + (size_t) s->left; }
 
-/* Weights of points, where not all are 1: share of a cell's volume, over the root of how full the family
- * is (product correction). A bond then weighs p_i p_j, and one number per bond of the stencil still
- * serves all points. */
+/* Sets the weights of points unless all are 1: share of a cell's volume, over the root of the family's
+ * relative volume (surface correction "product"). A bond is weighted by p_i p_j, so that one number per bond
+ * of the stencil still serves all points. */
 static pg_status set_weights (stencil *s)
 {
     pg_status status = PG_OK;
@@ -203,7 +203,7 @@ static int none_of (const unsigned char *mark, size_t n)
     return i == n;
 }
 
-/* The steps in the order in which each needs the former ones. */
+/* Makes the stencil; each step needs the former ones. */
 pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
                                   size_t bytes)
 {
@@ -212,7 +212,7 @@ pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setti
     stencil *s = NULL;
     const unsigned char *exempt = setting->limit ? setting->exempt : NULL;
     size_t n = setting->sums->cloud->n;
-    if (exempt && none_of (exempt, n)) exempt = NULL;  /* all may break */
+    if (exempt && none_of (exempt, n)) exempt = NULL;  /* all bonds may break */
     *self = s = pg_calloc (1, bytes);
     if (!s) PG_FAIL (PG_E_MEMORY, "%zu bytes for a stencil", bytes);
     s->setting = *setting, s->kernels = kernels[set];
@@ -236,8 +236,7 @@ done:
     return status;
 }
 
-/* Bond-based theory needs nothing beside the stencil; where its constants are even, mirror images are summed
- * together. */
+/* Makes the loop of bond-based theory: a stencil, and a folded one if that can be used. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -249,7 +248,7 @@ done:
     return status;
 }
 
-/* Bytes that a sum moves: bits by the bond; unknowns, forces and padded copies by the point. */
+/* Memory traffic of a sum, bytes: per bond alive bits; per point unknowns, forces and padded copies. */
 void pg_stencil_loop_bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
@@ -263,7 +262,8 @@ void pg_stencil_loop_bytes (const void *self, double *per_bond, double *per_poin
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* The entry of the family for a bond given by place and number; the family's neighbours ascend. */
+/* Returns the entry of the family of bond b of point i at `place`, by bisection, as the family's neighbours
+ * ascend. */
 size_t pg_stencil_loop_entry (const stencil *s, int i, size_t place, size_t b)
 {
     const pg_family *family = s->setting.family;
@@ -279,8 +279,9 @@ size_t pg_stencil_loop_entry (const stencil *s, int i, size_t place, size_t b)
     return low;
 }
 
-/* xi.eta, or the finite 2 xi.eta + eta.eta, of one bond: what the loops compare with the limit, operation
- * by operation, so that a bond dies here if and only if its lane said so. */
+/* Returns xi.eta, or with finite stretch 2 xi.eta + eta.eta, of one bond, m^2: the measure that loops compare
+ * with the limit, by the same operations, so that a bond breaks here if and only if its lane was over the
+ * limit. */
 static double measure (const stencil *s, size_t place, size_t b)
 {
     const double *t = s->term + b * PG_TERMS;
@@ -293,7 +294,8 @@ static double measure (const stencil *s, size_t place, size_t b)
     return sum;
 }
 
-/* Kills the bonds of a block that are over their limit, and notes them by their entries in the family. */
+/* Breaks the bonds of block k that are at or over their limit, and appends their entries of the family to
+ * found. */
 pg_status pg_stencil_loop_kill (stencil *s, size_t k, pg_changes *found)
 {
     pg_status status = PG_OK;
@@ -316,7 +318,7 @@ done:
     return status;
 }
 
-/* list NULL: all n blocks */
+/* Arguments of a parallel loop over n blocks; list: their numbers, NULL: 0 .. n - 1. */
 typedef struct {
     stencil *s;
     const double *u;
@@ -326,7 +328,7 @@ typedef struct {
     const int *list;
 } pass;
 
-/* Displacements to their padded places. */
+/* Copies the displacements of blocks first .. last - 1 to their padded places. */
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -334,8 +336,8 @@ static void spread_blocks (void *context, size_t first, size_t last, int thread)
     p->s->kernels->spread (&p->s->job, p->u, first, last);
 }
 
-/* Forces of some blocks. A block that says `hit` has bonds over their limit: they die, and the block is
- * summed once more without them. */
+/* Forces of blocks (or entries of the list) first .. last - 1. In a block with `hit` the bonds over their
+ * limit are broken, and the block is summed once more without them. */
 static void force_blocks (void *context, size_t first, size_t last, int thread)
 {
     pass *p = context;
@@ -353,7 +355,7 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* All blocks, by threads. */
+/* Copies the displacements of all blocks to their padded places, by threads. */
 void pg_stencil_loop_spread (stencil *s, const double *u)
 {
     if (s->fold) folding_spread (s, u);
@@ -362,7 +364,7 @@ void pg_stencil_loop_spread (stencil *s, const double *u)
                            &(pass) { .s = s, .u = u });
 }
 
-/* One pass over p->n blocks; bonds that died are collected in the order of the family. */
+/* Runs one pass over p->n blocks; broken bonds are collected in the order of the family. */
 static pg_status run (stencil *s, pass *p, pg_changes *broken)
 {
     int threads = pg_stencil_loop_threads (s);
@@ -384,7 +386,8 @@ pg_status pg_stencil_loop_run_some (stencil *s, pg_block_loop loop, pg_block_loo
                 broken);
 }
 
-/* The loop of this dimension, strain measure and check; with weights or without. */
+/* Runs the loop for this dimension, strain measure and check, with or without weights, over n blocks of a
+ * list. */
 pg_status pg_stencil_loop_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
 {
     int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
@@ -406,7 +409,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
     return pg_stencil_loop_force_some (s, s->nblock, NULL, f, broken);
 }
 
-/* What the bonds of some blocks store. */
+/* Energies of the blocks (or entries of the list) first .. last - 1. */
 static void energy_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -427,7 +430,7 @@ void pg_stencil_loop_energies_some (stencil *s, size_t n, const int *list, doubl
     s->job.energies = NULL;
 }
 
-/* Sums of blocks are added in their order, whatever thread made them. */
+/* The sums of blocks are added in their order, whichever thread made them. */
 double pg_stencil_loop_stored (stencil *s, pg_block_loop loop, double *W)
 {
     double sum = 0;
@@ -444,7 +447,7 @@ static double energy (void *self, const double *u)
 {
     stencil *s = self;
     pg_stencil_loop_spread (s, u);
-    /* w / 2 of each bond, seen from both its ends */
+    /* the loop sums twice the energy of each bond from both its ends */
     return pg_stencil_loop_stored (
                s, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL)
            / 4;
@@ -461,8 +464,8 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-/* Estimate of one sum, ns: bonds over bonds a nanosecond, by instruction set, in a plane and in space.
- * From bench/sums_rate bond, square_400_m6 and cube_64, one thread of an AMD EPYC. */
+/* Estimated time of one sum, ns; rate: bonds per nanosecond by instruction set, in 2D and in 3D. From
+ * bench/sums_rate bond, square_400_m6 and cube_64, one thread of an AMD EPYC. */
 static double time_of (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const double rate[][2] = { { 1.7, 0.8 }, { 3.9, 2.1 }, { 7.3, 3.7 } };

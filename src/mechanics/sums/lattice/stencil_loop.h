@@ -7,7 +7,7 @@
 #include "block.h"
 #include "mechanics/sums/terms/bond_loop.h"
 
-enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW: up to so many directed bonds one thread is used */
+enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW: one thread for up to so many directed bonds */
 typedef struct {
     pg_bond_loop_setting setting;
     const pg_block_kernels *kernels;

@@ -7,12 +7,12 @@
 #include <string.h>
 
 typedef struct {
-    bond_list list;                                    /* first: the traversal sees it alone */
+    bond_list list;                                    /* first, as the traversal takes a bond_list */
     pg_beam_law law;
-    double *energy;                                    /* J, of each point's halves (n) */
+    double *energy;                                    /* half of the energy of each point's bonds, J (n) */
 } beam_list;
 
-/* Why these bonds cannot be summed at all: lists take any points and any number of materials. */
+/* Returns why these bonds cannot be summed by a list, nor by anything else; NULL: they can. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "stretch: finite is not for bonds that bear shear";
@@ -28,8 +28,8 @@ static void release (void *self)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-/* Constants of the law (list_laws.h), and 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point into its
- * record, behind place and unknowns: a bond is judged by the limits of both its ends. */
+/* Sets the constants of the law (list_laws.h), and writes 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point
+ * to its record, behind position and unknowns: a bond is compared with the limits of both its ends. */
 static void prepare (bond_list *list)
 {
     beam_list *s = (beam_list *) list;
@@ -46,17 +46,18 @@ static void prepare (bond_list *list)
         }
 }
 
-/* Stiffnesses of a bond in the order of law_beam.h: shear, along, bending, N/m. */
+/* list_law.term: stiffnesses of a bond in the order of law_beam.h: shear, along, bending, N/m. */
 static void term (const bond_list *list, size_t i, size_t j, const double *xi, double weight, double *out)
 {
     const pg_beam beam = pg_beam_between (&list->setting, i, j, xi, weight);
     out[0] = beam.shear, out[1] = beam.along, out[2] = beam.bending;
 }
 
-/* Of the sum of a bond's shares, or of the largest of them: 1. */
+/* list_law.limit: 1, of the sum or the largest of the squared utilisations of a bond. */
 static double limit (const bond_list *list, size_t i, size_t j) { (void) list, (void) i, (void) j; return 1; }
 
-/* Records of 8 numbers in a plane (2 + 3 + 3), 16 in space (3 + 6 + 3 and a gap): whole cache lines. */
+/* Makes the list, with records of 8 numbers in 2D (2 + 3 + 3), 16 in 3D (3 + 6 + 3 and a gap): whole cache
+ * lines. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -71,7 +72,7 @@ done:
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* Sums of a chunk to the points' own numbers: forces, then moments over the length, N. */
+/* list_take: copies forces and moments (over the length) of a chunk, N, to f in the order of old numbers. */
 static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     int m = list->law.unknowns;
@@ -81,7 +82,8 @@ static void take_forces (void *f, const bond_list *list, size_t first, size_t la
     }
 }
 
-/* Forces and moments of all points; with `broken` bonds at their limit die on the way. */
+/* Forces and moments f of all points, N; unless broken is NULL, bonds at their limit are broken before they
+ * are summed. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     beam_list *s = self;
@@ -91,14 +93,15 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
     return check ? pg_list_lost (&s->list, broken) : PG_OK;
 }
 
-/* Half of w, and half of it to each end */
+/* list_take: energy of each point, J: the loop sums twice the energy of bonds, of which each end gets half.
+ * */
 static void take_energies (void *W, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     for (size_t p = first; p < last; p++)
         ((double *) W)[list->point[p]] = pg_list_sum (sum, 1, p - first, 0) / 4;
 }
 
-/* Energy of the body, J: points in their own order, so that threads do not show. */
+/* Energy of the body, J, summed in the order of points, so that it does not depend on threads. */
 static double energy (void *self, const double *u)
 {
     beam_list *s = self;

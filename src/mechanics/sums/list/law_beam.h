@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * law_beam.h: micropolar bonds, beams that bear shear and bending (Chen 2022; theory G2). Included once per
  * instruction set behind the vectors of list_instances.h; the same operations in the same order as those of
- * beam.h on one bond. Of a bond xi with unknowns u and q = length theta of its ends i (own) and j:
+ * beam.h for one bond. For a bond xi with unknowns u and q = length theta of its ends i (own) and j:
  *   w = eta - lever (q_i + q_j) x xi,  lever = 1 / (2 length),  diff = q_j - q_i,
  *   force  g = kt w + (kn - kt) e (e . w),   moment lever xi x g + kb diff_perp   (2D: diff itself),
  *   twice the energy (kn s^2 + kt gamma^2) r^2 + kb diff_perp^2,  s = e . w / r, gamma = |w_perp| / r.
- * A record is {x, u, q, 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2}, the last three being read where
- * bonds can break; the numbers of a bond are kt, kn, kb (N/m). A bond breaks at a limit of either end. */
+ * A record is {x, u, q, 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2}, the last three being read if bonds can break;
+ * the numbers of a bond are kt, kn, kb (N/m). A bond breaks at a limit of either end. */
 typedef struct { V xi[3], w[3], diff[3], inverse; } beam_motion;       /* inverse: 1 / r^2 */
 
-/* xi, w and diff of a bond of each lane; constants hold the lever and, on a lattice, the steps by which
- * whole places become m. */
+/* Computes xi, w and diff (m) of a bond in each lane. constant: the lever, and on a lattice the steps by
+ * which positions counted in steps become m. */
 INLINE beam_motion beam_move (int dim, const V *own, const V *other, const double *constant)
 {
     beam_motion b;
@@ -37,10 +37,10 @@ INLINE beam_motion beam_move (int dim, const V *own, const V *other, const doubl
     return b;
 }
 
-/* Number of numbers of a point that are known: places and unknowns */
+/* Returns how many numbers of a record are position and unknowns. */
 INLINE int beam_known (int dim) { return dim == 2 ? 5 : 9; }
 
-/* s, gamma^2, and the square of what of diff lies across the bond */
+/* Computes s, gamma^2 (shear) and the square of the part of diff across the bond (turn, m^2). */
 INLINE void beam_measure (int dim, const beam_motion *b, V *s, V *shear, V *turn)
 {
     V along = vec_dot (dim, b->xi, b->w) * b->inverse, across = V_SET (0);
@@ -60,7 +60,8 @@ INLINE void beam_measure (int dim, const beam_motion *b, V *s, V *shear, V *turn
     }
 }
 
-/* Is the bond at a limit of the point with these shares? */
+/* Returns the lanes in which the bond is at the limits of a point. share: 1 / s0^2, 1 / gamma0^2, 1 /
+ * kappa0^2. */
 INLINE unsigned beam_at_limit (const V *share, V s, V shear, V bend, V limit, int single)
 {
     V a = V_KEEP (s * s * share[0], V_LEAST (s, V_SET (0))), b = shear * share[1], c = bend * share[2];
@@ -68,12 +69,13 @@ INLINE unsigned beam_at_limit (const V *share, V s, V shear, V bend, V limit, in
     return V_LEAST (a + b + c, limit);
 }
 
-/* What the loops read and sum: unknowns of both ends, and the shares of the limits where bonds can break. */
+/* Numbers that force loops read of both ends: position and unknowns, and limits if bonds can break; numbers
+ * that they sum. */
 INLINE int beam_force_columns (int dim, int check) { return beam_known (dim) + (check ? 3 : 0); }
 INLINE int beam_force_sums (int dim) { return dim == 2 ? 3 : 6; }
 enum { beam_force_first = 0, beam_force_terms = 3, beam_force_shared = 0 };
 
-/* Lanes in which the bond is at a limit of its own end or of the other one. */
+/* Returns the lanes in which the bond is at the limits of its own end or of the other one. */
 INLINE unsigned beam_force_over (int dim, const V *own, const V *other, V limit, const double *constant)
 {
     const beam_motion b = beam_move (dim, own, other, constant);
@@ -86,7 +88,7 @@ INLINE unsigned beam_force_over (int dim, const V *own, const V *other, V limit,
          | beam_at_limit (other + beam_known (dim), s, shear, bend, limit, single);
 }
 
-/* Force and moment on the own end, 0 in dead lanes. */
+/* Force and moment (over the length) on the own end, N; 0 in lanes of broken bonds. */
 INLINE void beam_force_add (int dim, const V *own, const V *other, const V *term, unsigned live,
                             const double *constant, V *out)
 {
@@ -105,12 +107,12 @@ INLINE void beam_force_add (int dim, const V *own, const V *other, const V *term
     UNROLL for (int c = 0; c < sums; c++) out[c] = V_KEEP (out[c], live);
 }
 
-/* What energy loops read and sum: places and unknowns of both ends, as limits are not needed; one number. */
+/* Numbers that energy loops read of both ends: position and unknowns; they sum one number. */
 INLINE int beam_store_columns (int dim, int check) { (void) check; return beam_known (dim); }
 INLINE int beam_store_sums (int dim) { (void) dim; return 1; }
 enum { beam_store_first = 0, beam_store_terms = 3, beam_store_shared = 0 };
 
-/* Twice the energy of the bond, J. */
+/* Twice the energy of the bond, J; 0 in lanes of broken bonds. */
 INLINE void beam_store_add (int dim, const V *own, const V *other, const V *term, unsigned live,
                             const double *constant, V *out)
 {

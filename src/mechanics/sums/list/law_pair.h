@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * law_pair.h: bonds that pull along themselves (bond-based theory; theory A, B1). Included once per
- * instruction set behind the vectors of list_instances.h. Of a bond xi (place of the other end less the own
- * one) and eta (the same of displacements), with the bond's number a:
+ * law_pair.h: pair forces along bonds (bond-based theory; theory A, B1). Included once per instruction set
+ * behind the vectors of list_instances.h. For a bond with xi (position of the other end less that of the own
+ * end) and eta (displacement of the other end less that of the own end), with the bond's number a:
  *   linear  a = c k beta g V V / r^3:  force on the own end a (xi . eta) xi
  *   finite  a = c k beta g V V / r:    force a s y / |y|, y = xi + eta, s = (|y| - r) / r; with
  *           value = |y|^2 - r^2 = 2 xi . eta + eta . eta it is a value y / (|y|^2 + |y| r), free of
- * cancellation. A bond breaks where xi . eta >= s0 r^2 (linear), value >= s0 (2 + s0) r^2 (finite).
+ *           cancellation.
+ * A bond breaks where xi . eta >= s0 r^2 (linear), value >= s0 (2 + s0) r^2 (finite).
  * A record is {x, u}; the force on the other end is the opposite one. */
 INLINE int pair_linear_columns (int dim, int check) { (void) check; return 2 * dim; }
 INLINE int pair_linear_sums (int dim) { return dim; }

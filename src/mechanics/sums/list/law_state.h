@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * law_state.h: bonds of the linear peridynamic solid (Silling et al. 2007; theory B6). Included once per
- * instruction set behind the vectors of list_instances.h. With w = k beta / r, p = xi . eta of a live bond,
- * V the volumes of its ends i (own) and j, d the dimension, and of each point the numbers A, B (Pa) and q =
- * sum w r^2 V:
+ * instruction set behind the vectors of list_instances.h. With w = k beta / r, p = xi . eta of an intact
+ * bond, V the volumes of its ends i (own) and j, d the dimension, and for each point the numbers A, B (Pa)
+ * and q = sum w r^2 V:
  *   dilate  sum_j w V_j p                              (theta_i = d / q_i times this)
  *   pull    sum_j w V_i V_j [alpha_i + alpha_j + (beta_i + beta_j) p / r^2] xi,  alpha = A theta / q, beta =
  *   B / q
- *   store   sum_j w V_j p  and  sum_j w V_j p^2 / r^2, of which the energy of a point is made.
+ *   store   sum_j w V_j p  and  sum_j w V_j p^2 / r^2, from which the energy of a point follows.
  * A record is {x, u, alpha, beta}; the numbers of a bond are w V_j and w V_i V_j. A bond breaks where
  * p >= s0 r^2. */
 INLINE int state_dilate_columns (int dim, int check) { (void) check; return 2 * dim; }

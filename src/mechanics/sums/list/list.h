@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * list.h: bonds as a list, for any cloud of points (private). This is a traversal: it knows which points are
- * bonded and brings both ends of eight bonds at a time into vectors, but not what a bond does. That is said
- * by a law (law_pair.h, law_state.h, law_beam.h); list_laws.h names the laws, list_kernel.h marries the two.
+ * list.h: bonds as a list, for any cloud of points (private). This is a traversal: it has the pairs of points
+ * and loads the data of both ends of eight bonds at a time into vectors. What a bond does is defined by a law
+ * (law_pair.h, law_state.h, law_beam.h); list_laws.h names the laws, list_kernel.h combines the two.
  *
- * Points are renumbered into compact chunks. Eight points that follow each other are a slice: their k-th
- * bonds lie side by side, a slot, padded with dead ones (the format known as SELL-8). Of a law whose bond
- * forces are equal and opposite a bond inside a chunk is stored once, at the end of lower rank, and its
- * force goes to both ends ("shared"). All other bonds are stored at both ends, in the order of the family,
- * so that every point adds up its own bonds in that order. A chunk's sums are the work of one thread, in one
- * order: the same bits for any number of threads.
+ * Points are renumbered (new numbers, also called ranks) so that a chunk of consecutive points is compact in
+ * space. Eight consecutive points are a slice: their k-th bonds lie side by side, a slot, padded with broken
+ * ones (the format known as SELL-8). If a law has equal and opposite forces, a bond inside a chunk is stored
+ * once, at the end of lower rank, and its force goes to both ends ("shared"). All other bonds are stored at
+ * both ends, in the order of the family, so that every point sums its own bonds in that order. A chunk is
+ * summed by one thread, in one order: the same bits for any number of threads.
  *
- * A record holds what a law reads of a point: its place, its unknowns (displacement, rotation), and what the
- * law adds. Its length, the pitch, is a power of two doubles, so that a record lies in as few cache lines as
- * it can. */
+ * A record has the numbers of a point that a law reads: its position, its unknowns (displacement, rotation),
+ * and what the law adds. Its length, the pitch, is a power of two doubles, so that a record lies in few cache
+ * lines. */
 #ifndef PERIGAL_SUMS_LIST_H
 #define PERIGAL_SUMS_LIST_H
 #include "mechanics/sums/terms/bond_loop.h"
@@ -21,36 +21,37 @@
 
 enum { LIST_LANES = 8, LIST_TERMS = 3, LIST_CONSTANTS = 6 };
 
-/* Bonds of one sort, lane by lane. */
+/* Bonds of one sort (shared or not), lane by lane. */
 typedef struct {
-    int       shared;                                  /* 1: inside a chunk, stored once */
+    int       shared;                                  /* 1: bonds inside a chunk, stored once */
     size_t   *start;                                   /* first slot of each slice (slices + 1) */
-    uint16_t *near;     /* shared: the other end's record from the chunk's first, in doubles (8 a slot) */
-    uint32_t *far;                                     /* else from the first record of all (8 a slot) */
-    double   *term[LIST_TERMS];                        /* what the law knows of each bond (8 a slot each) */
-    unsigned char *alive, *lost;                       /* a bit per lane; lost: died in this loop (slots) */
-    size_t   *limit_at;                                /* of each slice: where its limits begin (slices) */
-    unsigned char *limit_step;     /* 0: the same 8 limits for all its slots, 8: each has its own (slices) */
+    uint16_t *near;     /* shared: offset of the other end's record in its chunk, doubles (8 per slot) */
+    uint32_t *far;      /* not shared: offset of the other end's record in all records, doubles (8 per slot) */
+    double   *term[LIST_TERMS];                        /* numbers of each bond for the law (8 per slot) */
+    unsigned char *alive, *lost;                       /* a bit per lane; lost: broken in this loop (slots) */
+    size_t   *limit_at;                                /* where the limits of each slice begin (slices) */
+    unsigned char *limit_step;     /* 0: the same 8 limits for all slots of a slice, 8: each its own (slices) */
 } bond_slots;
 
 typedef struct bond_list bond_list;
-/* Sums a law over the bonds of a chunk's points into `sum`; with limits, bonds at or over theirs die first.
- * Returns whether one did. Of a shared law sum has pitch / 2 numbers a point, else 8 lanes of each number for
- * every slice: see pg_list_sum. */
+/* Sums a law over the bonds of a chunk's points into `sum`; with limits, bonds at or over these are broken
+ * first. Returns whether one was. sum: of a shared law pitch / 2 numbers per point, else 8 lanes of each
+ * number for every slice (pg_list_sum). */
 typedef int (*list_kernel) (const bond_list *list, size_t chunk, double *sum);
 typedef struct { list_kernel loop[LIST_LOOPS][3][2]; } list_kernels;   /* [dim - 1][check]; NULL: none */
 extern const list_kernels pg_list_scalar, pg_list_avx2, pg_list_avx512;
 
-/* What a law tells of itself when its list is built. Places in records: as they are, or in steps of the
- * lattice where there is one (with steps equal along all axes), so that its bonds are alike everywhere. */
+/* Properties of a law by which its list is built. places: positions in records: in m (AS_THEY_ARE), or in
+ * steps of the lattice if there is one (EQUAL_STEPS: only if steps are equal along all axes), so that bonds
+ * are the same everywhere. */
 typedef struct {
-    int    shared;                                     /* forces on both ends are equal and opposite */
-    int    pitch, unknowns, sums;                      /* doubles of a record, of a point; most sums of it */
+    int    shared;                                     /* 1: forces on both ends are equal and opposite */
+    int    pitch, unknowns, sums;                      /* doubles of a record; unknowns, most sums of a point */
     int    terms;                                      /* numbers of a bond */
     enum { LIST_AS_THEY_ARE, LIST_EQUAL_STEPS, LIST_STEPS } places;
-    /* The numbers of the bond of points i and j as xi (m) and weight of pg_sums_bonds say. */
+    /* Computes the numbers of the bond between points i and j from xi (m) and weight of pg_sums_bonds. */
     void (*term) (const bond_list *list, size_t i, size_t j, const double *xi, double weight, double *out);
-    /* What the law compares its measure of the bond with; asked for only where bonds may break. */
+    /* Returns the limit of the law's measure of the bond; called only if bonds may break. */
     double (*limit) (const bond_list *list, size_t i, size_t j);
 } list_law;
 
@@ -61,58 +62,59 @@ struct bond_list {
     const list_kernels *kernels;
     list_law law;
     int     dim, threads, pitch;
-    size_t  n, chunk, chunks, slices;                  /* points, points a chunk (a multiple of 8) */
-    int     whole;                                     /* records hold places in steps of the lattice */
+    size_t  n, chunk, chunks, slices;                  /* points; points of a chunk (multiple of 8); numbers */
+    int     whole;                                     /* 1: positions in records are in lattice steps */
     double  scale;                                     /* factor of the unknowns in records */
-    double  constant[LIST_CONSTANTS];                  /* what the law knows of all bonds */
-    int    *point, *rank;                              /* new to old number, old to new (n) */
-    /* of an old number: rank before points of a chunk were sorted; the lower end keeps a shared bond
-     * (n, while built) */
+    double  constant[LIST_CONSTANTS];                  /* numbers of the law that all bonds share */
+    int    *point, *rank;                              /* old number of each new one, new of each old one (n) */
+    /* While the list is built: rank of each point (old number) before the points of a chunk were sorted; the
+     * end for which it is lower keeps a shared bond (n). */
     int    *before;
-    double *record;                                    /* pitch per point, slices full */
-    bond_slots slots[2];                               /* shared, others */
-    double *limit; size_t limits, limit_cap;           /* eights; none: nothing breaks */
-    double *sum;                                       /* of a chunk, for each thread */
-    unsigned char *broke;                              /* chunk: a bond died in this loop */
+    double *record;                                    /* records (8 slices x pitch) */
+    bond_slots slots[2];                               /* shared bonds, others */
+    double *limit; size_t limits, limit_cap;           /* limits by eights; limits 0: nothing breaks */
+    double *sum;                                       /* sums of a chunk, for each thread */
+    unsigned char *broke;                              /* 1: a bond broke in this loop (chunks) */
 };
 
-/* The list of setting's bonds, all alive, at the start of `bytes` bytes: what follows it is the caller's.
- * *self is set even after a failure: free it with pg_list_free in any case. `prepare` (or NULL) is called
- * when points are numbered and placed, before terms and limits are asked for. */
+/* Makes the list of setting's bonds, all intact, at the start of a struct of `bytes`, the rest of which is
+ * the caller's. *self is set even after a failure: it is to be freed with pg_list_free in any case. `prepare`
+ * (or NULL) is called when points are numbered and records have positions, before terms and limits are
+ * computed. */
 typedef void (*list_prepare) (bond_list *list);
 pg_status pg_list_create (void **self, size_t bytes, const pg_bond_loop_setting *setting, pg_instructions set,
                           const list_law *law, list_prepare prepare);
 void      pg_list_free   (void *self);
 void      pg_list_bytes  (const void *self, double *per_bond, double *per_point);
 void      pg_list_update (void *self, const unsigned char *alive, const pg_changes *changes);
-void      pg_list_read   (bond_list *list, const double *u);           /* unknowns (n x m) into the records */
-/* Runs a loop over all chunks and hands each chunk's sums to `take`: points first .. last - 1 of the new
- * order. */
+void      pg_list_read   (bond_list *list, const double *u);       /* copies unknowns (n x m) to the records */
+/* Runs a loop over all chunks and passes the sums of each chunk to `take`: points first .. last - 1 (new
+ * numbers). */
 typedef void (*list_take) (void *context, const bond_list *list, size_t first, size_t last,
                            const double *sum);
 void      pg_list_run    (bond_list *list, int loop, int check, list_take take, void *context);
-/* Appends the bonds that died in the last run to `broken`; without memory for it none did. */
+/* Appends the bonds that broke in the last run to `broken`; without memory for this none is broken. */
 pg_status pg_list_lost   (bond_list *list, pg_changes *broken);
-pg_status pg_list_order  (bond_list *list);            /* point, rank, before */
+pg_status pg_list_order  (bond_list *list);            /* numbers the points: point, rank, before */
 pg_status pg_list_fill   (bond_list *list);            /* fills slots and limits of the bonds */
 /* Entry of the family of the bond from point i to point j (old numbers). */
 size_t    pg_list_entry  (const pg_family *family, size_t i, size_t j);
 size_t    pg_list_owner  (const pg_family *family, size_t entry);      /* the point whose bond an entry is */
 
-/* Of a law that is not shared: number c of `sums` numbers of the chunk's point k. */
+/* For a law that is not shared: returns number c of the `sums` numbers of the chunk's point k. */
 static inline double pg_list_sum (const double *sum, int sums, size_t k, int c)
 {
     return sum[(k / LIST_LANES * (size_t) sums + (size_t) c) * LIST_LANES + k % LIST_LANES];
 }
 
-/* New number of the other end of bond `at` (8 slot + lane) of a slice. */
+/* Returns the new number of the other end of bond `at` (8 slot + lane) of a slice. */
 static inline size_t pg_list_end (const bond_list *list, const bond_slots *slots, size_t slice, size_t at)
 {
     if (!slots->shared) return slots->far[at] / (size_t) list->pitch;
     return slice * LIST_LANES / list->chunk * list->chunk + slots->near[at] / (size_t) list->pitch;
 }
 
-/* Of a law that is not shared: does bond k of point p (new number) of the family live? */
+/* For a law that is not shared: is bond k of point p (new number), in the order of its family, intact? */
 static inline int pg_list_alive (const bond_list *list, size_t p, size_t k)
 {
     const bond_slots *slots = &list->slots[1];

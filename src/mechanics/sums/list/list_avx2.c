@@ -24,7 +24,7 @@ static inline __attribute__ ((always_inline)) TARGET __m256d keep (__m256d v, un
     return _mm256_and_pd (v, _mm256_castsi256_pd (_mm256_cmpeq_epi64 (got, bit)));
 }
 
-/* Four rows to four columns; of columns that nobody reads the compiler leaves the work out. */
+/* Transposes four rows to four columns; the compiler leaves out columns that are not used. */
 static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m256d r1, __m256d r2,
                                                                 __m256d r3, __m256d *out)
 {
@@ -34,19 +34,19 @@ static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m2
     out[2] = _mm256_permute2f128_pd (low, low2, 0x31), out[3] = _mm256_permute2f128_pd (high, high2, 0x31);
 }
 
-/* Rows of four or two numbers of the record whose offset is o[k]. */
+/* Load four (ROW) or two (HALF) numbers of the record at offset o[k]; TURN: four columns of four records. */
 #define ROW(record, o, k) _mm256_load_pd ((record) + (o)[k])
 #define HALF(record, o, k) _mm_load_pd ((record) + (o)[k])
 #define TURN(record, o, out) \
     turn (ROW (record, o, 0), ROW (record, o, 1), ROW (record, o, 2), ROW (record, o, 3), out)
-/* Two columns alone */
+/* Fetches two columns of four records. */
 #define PAIR(record, o, out) \
     do { \
         const __m256d even_ = _mm256_set_m128d (HALF (record, o, 2), HALF (record, o, 0)); \
         const __m256d odd_ = _mm256_set_m128d (HALF (record, o, 3), HALF (record, o, 1)); \
         (out)[0] = _mm256_unpacklo_pd (even_, odd_), (out)[1] = _mm256_unpackhi_pd (even_, odd_); \
     } while (0)
-/* `columns` is a constant: one of these branches is left. */
+/* As `columns` is a constant, the compiler keeps one of these branches. */
 #define FETCH(record, o, columns, out) \
     do { \
         if ((columns) <= 2) PAIR (record, o, out); \
@@ -56,8 +56,8 @@ static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m2
         if ((columns) > 8) TURN ((record) + 8, o, (out) + 8); \
     } while (0)
 
-/* Adds what a slot gives to the sums of the other ends, one after the other, as two lanes may have the
- * same end. */
+/* Subtracts forces in 2D from the sums of the other ends, one after the other, as two lanes may have the same
+ * end. */
 #define GIVE2(sum, o, f) \
     do { \
         const __m256d l_ = _mm256_unpacklo_pd ((f)[0], (f)[1]), h_ = _mm256_unpackhi_pd ((f)[0], (f)[1]); \
@@ -66,7 +66,8 @@ static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m2
         TAKE2 (sum, o, 2, _mm256_extractf128_pd (l_, 1)); \
         TAKE2 (sum, o, 3, _mm256_extractf128_pd (h_, 1)); \
     } while (0)
-/* Subtracts forces in space from the sums of the other ends, one by one: three components and a zero each. */
+/* Subtracts forces in 3D from the sums of the other ends, one after the other: three components and a zero
+ * each. */
 #define GIVE3(sum, o, f) \
     do { \
         __m256d t_[4]; \

@@ -16,8 +16,8 @@
 #define V_KEEP(v, bits)  _mm512_maskz_mov_pd ((__mmask8) (bits), v)
 #define V_LEAST(a, b)    ((unsigned) _mm512_cmp_pd_mask (a, b, _CMP_GE_OQ))
 
-/* Into a register: the compiler would merge it with the masked product behind it, whose load then waits for
- * the mask (a third of the speed lost). */
+/* Loads into a register: the compiler would merge the load with the masked product behind it, so that it
+ * waits for the mask (a third of the speed lost). */
 static inline __attribute__ ((always_inline)) TARGET __m512d load (const double *p)
 {
     __m512d v = _mm512_load_pd (p);
@@ -25,8 +25,8 @@ static inline __attribute__ ((always_inline)) TARGET __m512d load (const double 
     return v;
 }
 
-/* Quarters of two vectors; below: rows of records, or pairs and quads of half rows, that FETCH turns into
- * columns. */
+/* LANES: chooses quarters of two vectors. ROW, PAIR, HALF, QUAD: load rows of records, or parts of two or
+ * four rows, which FETCH transposes to columns. */
 #define LANES(a, b, choice) _mm512_shuffle_f64x2 (a, b, choice)
 #define ROW(record, o, k) _mm512_load_pd ((record) + (o)[k])
 #define PAIR(record, o, i, j) \
@@ -38,9 +38,9 @@ static inline __attribute__ ((always_inline)) TARGET __m512d load (const double 
 #define QUAD(record, o, i, j, k, m) \
     _mm512_insertf64x4 (_mm512_castpd256_pd512 (HALF (record, o, i, j)), HALF (record, o, k, m), 1)
 
-/* Records of 2, 4 or 8 columns of eight points become as many vectors, each with one column of all eight.
- * The points are not fetched in line: shuffles within quarters of a register cost less than gathers, and
- * even and odd points meet again by the choice of halves. */
+/* FETCH2, FETCH4: transpose 2 or 4 columns of the records of eight points to as many vectors. Even and odd
+ * points are loaded separately and interleaved by unpacking, as shuffles within quarters of a register cost
+ * less than gathers. */
 #define FETCH2(record, o, out) \
     do { \
         const __m512d even_ = QUAD (record, o, 0, 2, 4, 6), odd_ = QUAD (record, o, 1, 3, 5, 7); \
@@ -55,8 +55,8 @@ static inline __attribute__ ((always_inline)) TARGET __m512d load (const double 
         (out)[0] = LANES (l0_, l1_, 0x88), (out)[1] = LANES (h0_, h1_, 0x88); \
         (out)[2] = LANES (l0_, l1_, 0xdd), (out)[3] = LANES (h0_, h1_, 0xdd); \
     } while (0)
-/* Of rows two by two interleaved (01, 23, 45, 67) the columns n, n + 2, n + 4, n + 6; of columns that nobody
- * reads the compiler leaves the work out. */
+/* Columns n, n + 2, n + 4, n + 6 of rows that are interleaved two by two (01, 23, 45, 67); the compiler
+ * leaves out columns that are not used. */
 static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a, __m512d b, __m512d c,
                                                                        __m512d d, __m512d *out)
 {
@@ -69,7 +69,7 @@ static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a
 #define HALVES(unpack, record, o, out) \
     every_other (INTERLEAVED (unpack, record, o, 0, 1), INTERLEAVED (unpack, record, o, 2, 3), \
                  INTERLEAVED (unpack, record, o, 4, 5), INTERLEAVED (unpack, record, o, 6, 7), out)
-/* `columns` is a constant: one of these branches is left. */
+/* As `columns` is a constant, the compiler keeps one of these branches. */
 #define FETCH(record, o, columns, out) \
     do { \
         if ((columns) <= 2) FETCH2 (record, o, out); \
@@ -81,8 +81,8 @@ static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a
         if ((columns) > 8) FETCH4 ((record) + 8, o, (out) + 8); \
     } while (0)
 
-/* Adds what a slot gives to the sums of the other ends, one after the other, as two lanes may have the
- * same end. */
+/* Subtracts forces in 2D from the sums of the other ends, one after the other, as two lanes may have the same
+ * end. */
 #define GIVE2(sum, o, f) \
     do { \
         const __m512d even_ = _mm512_unpacklo_pd ((f)[0], (f)[1]); \
@@ -96,7 +96,8 @@ static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a
         TAKE2 (sum, o, 6, _mm512_extractf64x2_pd (even_, 3)); \
         TAKE2 (sum, o, 7, _mm512_extractf64x2_pd (odd_, 3)); \
     } while (0)
-/* {f0, f1} and {f2, 0} of points 0 2 4 6 and 1 3 5 7, then side by side */
+/* Subtracts forces in 3D from the sums of the other ends: {f0, f1} and {f2, 0} of points 0 2 4 6 and of 1 3 5
+ * 7 are put side by side as {f0, f1, f2, 0}. */
 #define GIVE3(sum, o, f) \
     do { \
         const __m512d zero_ = _mm512_setzero_pd (); \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Slots of a list of bonds: how many each slice needs, their ends, coefficients and limits. */
+ * Fills the slots of a list of bonds: how many each slice needs, ends, numbers and limits of bonds. */
 #include "list.h"
 #include <math.h>
 #include <string.h>
@@ -7,12 +7,12 @@
 typedef struct {
     bond_list *list;
     size_t  most;                                      /* bonds of the largest family */
-    double *xi, *weight;  /* of one family, for each thread (threads x most x dim, x most) */
+    double *xi, *weight;  /* of one family, for each thread (threads x most x dim; threads x most) */
 } filler;
 
-/* How the bond from point i to point j is stored: 0 shared and kept by i, 1 kept by both, -1 shared and
- * kept by j. Bonds within a chunk can be shared, as one thread sums both ends; the end that comes earlier
- * in the order of tiles keeps it. */
+/* Returns how the bond from point i to point j is stored: 0 shared, at i; 1 at both; -1 shared, at j. Bonds
+ * within a chunk can be shared, as one thread sums both ends; they are stored at the end of lower `before`.
+ * */
 static int sort_of (const bond_list *list, size_t i, size_t j)
 {
     size_t p = (size_t) list->rank[i], q = (size_t) list->rank[j];
@@ -20,8 +20,8 @@ static int sort_of (const bond_list *list, size_t i, size_t j)
     return list->before[i] < list->before[j] ? 0 : -1;
 }
 
-/* A slice of eight points has as many slots of a sort as the point of it with the most bonds of that
- * sort; start: slots before each slice. */
+/* Counts slots: a slice of eight points has as many slots of a sort as its point with most bonds of that sort
+ * has bonds. start: number of slots before each slice. */
 static void count_slots (bond_list *list)
 {
     const pg_family *family = list->family;
@@ -40,8 +40,8 @@ static void count_slots (bond_list *list)
         for (size_t s = 0; s < list->slices; s++) list->slots[k].start[s + 1] += list->slots[k].start[s];
 }
 
-/* Offset of the record of point q (new number) as it stands in slots of point p: 16 bits from the start
- * of the chunk for shared bonds, 32 bits for the others. */
+/* Writes the offset of the record of point q into slots of point p (new numbers): 16 bits from the start of
+ * the chunk for shared bonds, 32 bits from the first record for the others. */
 static void set_end (const bond_list *list, bond_slots *slots, size_t at, size_t p, size_t q)
 {
     size_t pitch = (size_t) list->pitch;
@@ -49,8 +49,8 @@ static void set_end (const bond_list *list, bond_slots *slots, size_t at, size_t
     else slots->far[at] = (uint32_t) (q * pitch);
 }
 
-/* Bonds of point p of the new order, into its lane: ends, numbers of the law, alive bits. xi (m), weight:
- * room for the largest family. */
+/* Writes the bonds of point p (new number) to its lane: ends, numbers of the law, alive bits. xi (m), weight:
+ * workspaces for the largest family. */
 static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
 {
     bond_list *list = g->list;
@@ -71,8 +71,8 @@ static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
     }
 }
 
-/* All lanes of some slices point to themselves first, so that a lane without a bond reads something
- * harmless. */
+/* Fills the slices first .. last - 1. All lanes have their own point as other end at first, so that lanes
+ * without a bond read valid memory. */
 static void fill_slices (void *context, size_t first, size_t last, int thread)
 {
     const filler *g = context;
@@ -80,7 +80,7 @@ static void fill_slices (void *context, size_t first, size_t last, int thread)
     double *xi = g->xi + (size_t) thread * g->most * (size_t) list->dim;
     double *weight = g->weight + (size_t) thread * g->most;
     for (size_t slice = first; slice < last; slice++) {
-        for (int sort = 0; sort < 2; sort++) {         /* lanes without a bond: the point itself, dead */
+        for (int sort = 0; sort < 2; sort++) {         /* all lanes: the point itself, not alive */
             bond_slots *slots = &list->slots[sort];
             size_t end = LIST_LANES * slots->start[slice + 1];
             for (size_t at = LIST_LANES * slots->start[slice]; at < end; at++) {
@@ -93,8 +93,7 @@ static void fill_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Limit of the bond of points p and q (new numbers) as the law compares it; INFINITY where one of them is
- * exempt. */
+/* Returns the limit of the bond of points p and q (new numbers) for the law; INFINITY if either is exempt. */
 static double bond_limit (const bond_list *list, size_t p, size_t q)
 {
     const unsigned char *exempt = list->setting.exempt;
@@ -103,7 +102,7 @@ static double bond_limit (const bond_list *list, size_t p, size_t q)
     return list->law.limit (list, i, j);
 }
 
-/* Are the first eight limits, which most slices share, all this one? */
+/* Are the first eight limits of the list all equal to `limit`, so that a slice can share them? */
 static int first_eight (const bond_list *list, double limit)
 {
     int same = list->limits > 0;
@@ -111,7 +110,8 @@ static int first_eight (const bond_list *list, double limit)
     return same;
 }
 
-/* Limits of one slice: where all are the same, eight of them; most slices share those of the first one. */
+/* Writes the limits of one slice: eight if all are equal, or none if these are the first eight of the list;
+ * else all. */
 static pg_status fill_limits (bond_list *list, bond_slots *slots, size_t slice)
 {
     pg_status status = PG_OK;
@@ -136,7 +136,7 @@ done:
     return status;
 }
 
-/* Allocates the arrays of shared or unshared bonds, once their slots are counted */
+/* Allocates the arrays of bonds of one sort, once their slots are counted. */
 static pg_status alloc_slots (bond_slots *slots, size_t slices, int terms)
 {
     pg_status status = PG_OK;
@@ -152,8 +152,8 @@ done:
     return status;
 }
 
-/* Counts, allocates, fills by threads (each slice is the work of one), then limits, whose places depend
- * on those before. */
+/* Counts slots, allocates, fills slices by threads (each by one), then writes limits, slice after slice, as
+ * where they are stored depends on the former ones. */
 pg_status pg_list_fill (bond_list *list)
 {
     pg_status status = PG_OK;

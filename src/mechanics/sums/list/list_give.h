@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: forces of a vector of bonds subtracted from the sums of their points, for any width. Of the width
- * come WIDTH, GIVE2 and GIVE3; two bonds of a vector may meet at one point, so that the lanes follow one
- * after the other. Offsets o are those of list_kernel.h. */
+ * Private: subtracts the forces of a vector of bonds from the sums of their other ends. WIDTH (bonds of a
+ * vector), GIVE2 and GIVE3 (2D, 3D) are defined by the including file. As two bonds of a vector may have the
+ * same end, lanes are subtracted one after the other. o: offsets of records, as `near` of bond_slots. */
 #ifndef PG_LIST_GIVE_H
 #define PG_LIST_GIVE_H
 #define PLACE(sum, o, k) (double *) (void *) ((char *) (sum) + 4 * (size_t) (o)[k])
@@ -15,7 +15,7 @@
         double *p_ = PLACE (sum, o, k); \
         _mm256_store_pd (p_, _mm256_sub_pd (_mm256_load_pd (p_), v)); \
     } while (0)
-/* In the order of the lanes: two of them may meet at one point. */
+/* Subtracts lane after lane, as two lanes may have the same end (1D). */
 #define GIVE1(sum, o, f) \
     do { \
         for (int k_ = 0; k_ < WIDTH; k_++) *PLACE (sum, o, k_) -= (f)[0][k_]; \

@@ -6,14 +6,14 @@
  *   V_LOAD (p), V_STORE (p, v)       aligned; V_SET (s): s in every lane; V_ROOT (v)
  *   V_KEEP (v, bits)                 0 in lanes whose bit is not set
  *   V_LEAST (a, b)                   bits of the lanes where a >= b
- *   FETCH (record, o, columns, out)  the first numbers (a constant) of the records at offsets o[0 .. WIDTH -
- *   1]
- *   GIVE (sum, o, dim, f)            subtracts f[0 .. dim - 1] from sums at half these offsets, lane after
- * lane No operation is contracted and the order is the same for every WIDTH: all instruction sets give the
- * same bits. */
+ *   FETCH (record, o, columns, out)  the first `columns` numbers (a constant) of the records at offsets
+ *                                    o[0 .. WIDTH - 1]
+ * GIVE (sum, o, dim, f)            subtracts f[0 .. dim - 1] from sums at half these offsets, lane after lane
+ * No operation is contracted and the order is the same for every WIDTH: all instruction sets give the same
+ * bits. */
 #include "mechanics/sums/terms/inline.h"
 
-/* a . b */
+/* Returns a . b. */
 INLINE V vec_dot (int dim, const V *a, const V *b)
 {
     V sum = a[0] * b[0];
@@ -27,7 +27,7 @@ INLINE void vec_differ (int dim, const V *own, const V *other, V *out)
 }
 
 enum { PARTS = LIST_LANES / WIDTH, MOST_COLUMNS = 12, MOST_SUMS = 6 };
-/* The points of a slice that a vector holds: what their records say, what they have summed up */
+/* The points of a slice that fit into a vector: numbers of their records, and their sums. */
 typedef struct { V own[MOST_COLUMNS], sum[MOST_SUMS]; } lanes;
 
 #include "law_beam.h"
@@ -36,7 +36,8 @@ typedef struct { V own[MOST_COLUMNS], sum[MOST_SUMS]; } lanes;
 
 #define GLUE_(a, b) a##b
 #define GLUE(a, b) GLUE_ (a, b)
-/* A law and the least dimension that it knows */
+/* For each law: LAW_BREAKS 1: it has a loop that breaks bonds; LEAST_DIMENSION: the least that it is defined
+ * for. */
 #define LAW pair_linear
 #define LAW_BREAKS 1
 #define LEAST_DIMENSION 1
@@ -66,7 +67,8 @@ typedef struct { V own[MOST_COLUMNS], sum[MOST_SUMS]; } lanes;
 #define LEAST_DIMENSION 2
 #include "list_kernel.h"
 
-/* A loop, or the 0 of one that there is not, which is no null pointer by itself to every compiler. */
+/* Casts a loop, or the 0 in place of one that does not exist, which some compilers do not take for a null
+ * pointer. */
 #define THE(loop) (list_kernel) (loop)
 #define LOOPS(law) \
     [LIST_##law] = { { THE (law##_10), THE (law##_11) }, { THE (law##_20), THE (law##_21) }, \

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * list_kernel.h: the traversal of a list of bonds, written once for all laws, dimensions and instruction sets
- * (private, no guard): list_instances.h includes it with LAW and LEAST_DIMENSION defined, in terms of its
- * vectors. Of a law it uses (LAW = pair_linear, say)
- *   LAW_columns (dim, check)   numbers of a record to be fetched; LAW_sums (dim): numbers that a point sums
- *   up
- *   LAW_first, LAW_terms       which numbers of a bond it reads
+ * (private, no guard): list_instances.h includes it with LAW, LAW_BREAKS and LEAST_DIMENSION defined, and
+ * defines its vectors. It uses of a law (LAW = pair_linear, say)
+ *   LAW_columns (dim, check)   numbers of a record to be fetched
+ *   LAW_sums (dim)             numbers that a point sums
+ *   LAW_first, LAW_terms       the first number of a bond that it reads, and how many
  *   LAW_shared                 1: bonds of slots[0] give the opposite of their sums to the other end
- *   LAW_add (dim, own, other, term, live, constant, out): what the bond adds to the own sums, 0 in dead
- *   lanes. */
+ *   LAW_over (dim, own, other, limit, constant): lanes with bonds at or over their limit
+ * LAW_add (dim, own, other, term, live, constant, out): what the bond adds to the own sums, 0 in lanes of
+ * broken
+ *                              bonds. */
 #define OF_LAW(what) GLUE (LAW, what)
 
-/* Bonds of a slot at or over their limit die: their bits leave `alive` and are noted in `lost`. Returns
- * the bits of those that live on. This is rare, and told to the compiler as such. */
+/* Breaks the bonds of a slot that are at or over their limit: clears their bits in `alive` and sets them in
+ * `lost`. Returns the bits of intact bonds. __builtin_expect: this is rare. */
 INLINE unsigned OF_LAW (_break) (const bond_slots *slots, size_t k, unsigned shift, unsigned live,
                                  const V *own,
                                  const V *other, const double *limit, const double *constant, const int dim,
@@ -31,14 +33,14 @@ INLINE unsigned OF_LAW (_break) (const bond_slots *slots, size_t k, unsigned shi
     return live;
 }
 
-/* Slots of one slice and one sort: fetch the other ends' records, judge, add to the own sums, and give
- * the opposite to the other ends where bonds are shared. Numbers and ends of slots to come are asked for
- * ahead: they are read once and in order. */
+/* Sums the slots of one slice and one sort: fetches the records of the other ends, checks limits, adds to the
+ * own sums, and gives the opposite to the other ends if bonds are shared. Numbers and ends of later slots are
+ * prefetched, as they are read once and in order. */
 INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, size_t slice, const double *from,
                              const double *constant, double *sum, lanes *lane, const int dim, const int check,
                              const int gives, int *broke)
 {
-    enum { AHEAD = 64 };                               /* slots to ask for ahead of their use */
+    enum { AHEAD = 64 };                               /* slots by which prefetching is ahead */
     const double *restrict limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL;
     const size_t end = slots->start[slice + 1], step = check ? slots->limit_step[slice] : 0;
     const uint16_t *restrict near = slots->near;
@@ -70,7 +72,7 @@ INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, siz
     }
 }
 
-/* All bonds of a slice; `sum` is that of the chunk, whose first record is `first`. */
+/* Sums all bonds of a slice; `sum` is that of its chunk, whose first record is `first`. */
 INLINE void OF_LAW (_slice) (const bond_list *list, const double *first, const size_t slice, double *sum,
                              const int dim, const int check, int *broke)
 {
@@ -91,7 +93,7 @@ INLINE void OF_LAW (_slice) (const bond_list *list, const double *first, const s
     OF_LAW (_slots) (list, &list->slots[1], slice, list->record, constant, sum, lane, dim, check, 0, broke);
     for (int part = 0; part < PARTS; part++) {
         V *total = lane[part].sum;
-        if (OF_LAW (_shared)) {                        /* to what other slices gave: less the opposite */
+        if (OF_LAW (_shared)) {                        /* adds the own sums to those given by other slices */
             UNROLL for (int c = 0; c < OF_LAW (_sums) (dim); c++) total[c] = V_SET (0) - total[c];
             GIVE (sum + (own - first) / 2, row + part * WIDTH, dim, total);
         } else {
@@ -101,8 +103,8 @@ INLINE void OF_LAW (_slice) (const bond_list *list, const double *first, const s
     }
 }
 
-/* All slices of a chunk, in order; returns whether a bond died. Sums of shared laws are added to by both
- * ends and start at zero. */
+/* Sums all slices of a chunk, in order; returns whether a bond broke. Sums of shared laws get contributions
+ * of both ends and start at zero. */
 INLINE int OF_LAW (_chunk) (const bond_list *list, size_t chunk, double *sum, const int dim, const int check)
 {
     const size_t first = chunk * list->chunk / LIST_LANES, end = (chunk + 1) * list->chunk / LIST_LANES;
@@ -122,7 +124,7 @@ INLINE int OF_LAW (_chunk) (const bond_list *list, size_t chunk, double *sum, co
     { \
         return OF_LAW (_chunk) (list, chunk, sum, dim, check); \
     }
-#define NO_LOOP(dim, check) enum { GLUE (OF_LAW (_), GLUE (dim, check)) };   /* 0: a null pointer */
+#define NO_LOOP(dim, check) enum { GLUE (OF_LAW (_), GLUE (dim, check)) };   /* 0 in place of a loop: a null pointer */
 #if LEAST_DIMENSION == 1
 LOOP_OF (1, 0) LOOP_OF (1, 1)
 #else

@@ -6,16 +6,16 @@
 #define PERIGAL_SUMS_LIST_LAWS_H
 #define LIST_LAWS(LOOP) \
     LOOP (pair_linear)                    /* law_pair.h: forces along bonds of small displacements */ \
-    LOOP (pair_finite)                    /* ... and of finite ones */ \
+    LOOP (pair_finite)                    /* law_pair.h: forces along bonds of finite displacements */ \
     LOOP (state_dilate)                   /* law_state.h: dilatations */ \
-    LOOP (state_pull)                     /* ... forces */ \
-    LOOP (state_store)                    /* ... energies */ \
+    LOOP (state_pull)                     /* law_state.h: forces from dilatations */ \
+    LOOP (state_store)                    /* law_state.h: energies */ \
     LOOP (beam_force)                     /* law_beam.h: forces and moments of beams */ \
-    LOOP (beam_store)                     /* ... energies */
+    LOOP (beam_store)                     /* law_beam.h: energies of beams */
 #define LIST_LOOP_NAME(law) LIST_##law,
 enum { LIST_LAWS (LIST_LOOP_NAME) LIST_LOOPS };
 
-/* Constants of the beams' laws: lever, 1 / length (1/m), step of the places along each axis (m), 1 where any
- * single limit breaks a bond. */
+/* Indices of the constants of beams (bond_list.constant): lever (1/m), 1 / length (1/m), step of positions
+ * along each axis (m, or 1), 1: any single limit breaks a bond. */
 enum { BEAM_LEVER, BEAM_PER_LENGTH, BEAM_STEP, BEAM_SINGLE = BEAM_STEP + 3 };
 #endif
