@@ -26,11 +26,11 @@ typedef struct {
     int       shared;                                  /* 1: bonds inside a chunk, stored once */
     size_t   *start;                                   /* first slot of each slice (slices + 1) */
     uint16_t *near;     /* shared: offset of the other end's record in its chunk, doubles (8 per slot) */
-    uint32_t *far;      /* not shared: offset of the other end's record in all records, doubles (8 per slot) */
+    uint32_t *far;      /* others: offset of the other end's record in all records, doubles (8 per slot) */
     double   *term[LIST_TERMS];                        /* numbers of each bond for the law (8 per slot) */
     unsigned char *alive, *lost;                       /* a bit per lane; lost: broken in this loop (slots) */
     size_t   *limit_at;                                /* where the limits of each slice begin (slices) */
-    unsigned char *limit_step;     /* 0: the same 8 limits for all slots of a slice, 8: each its own (slices) */
+    unsigned char *limit_step;   /* 0: the same 8 limits for all slots of a slice, 8: each its own (slices) */
 } bond_slots;
 
 typedef struct bond_list bond_list;
@@ -46,7 +46,7 @@ extern const list_kernels pg_list_scalar, pg_list_avx2, pg_list_avx512;
  * are the same everywhere. */
 typedef struct {
     int    shared;                                     /* 1: forces on both ends are equal and opposite */
-    int    pitch, unknowns, sums;                      /* doubles of a record; unknowns, most sums of a point */
+    int    pitch, unknowns, sums;                    /* doubles of a record; unknowns, most sums of a point */
     int    terms;                                      /* numbers of a bond */
     enum { LIST_AS_THEY_ARE, LIST_EQUAL_STEPS, LIST_STEPS } places;
     /* Computes the numbers of the bond between points i and j from xi (m) and weight of pg_sums_bonds. */
@@ -62,11 +62,11 @@ struct bond_list {
     const list_kernels *kernels;
     list_law law;
     int     dim, threads, pitch;
-    size_t  n, chunk, chunks, slices;                  /* points; points of a chunk (multiple of 8); numbers */
+    size_t  n, chunk, chunks, slices;                  /* points; points of a chunk (a multiple of 8) */
     int     whole;                                     /* 1: positions in records are in lattice steps */
     double  scale;                                     /* factor of the unknowns in records */
     double  constant[LIST_CONSTANTS];                  /* numbers of the law that all bonds share */
-    int    *point, *rank;                              /* old number of each new one, new of each old one (n) */
+    int    *point, *rank;                            /* old number of each new one, new of each old one (n) */
     /* While the list is built: rank of each point (old number) before the points of a chunk were sorted; the
      * end for which it is lower keeps a shared bond (n). */
     int    *before;
@@ -87,7 +87,7 @@ pg_status pg_list_create (void **self, size_t bytes, const pg_bond_loop_setting 
 void      pg_list_free   (void *self);
 void      pg_list_bytes  (const void *self, double *per_bond, double *per_point);
 void      pg_list_update (void *self, const unsigned char *alive, const pg_changes *changes);
-void      pg_list_read   (bond_list *list, const double *u);       /* copies unknowns (n x m) to the records */
+void      pg_list_read   (bond_list *list, const double *u);      /* copies unknowns (n x m) to the records */
 /* Runs a loop over all chunks and passes the sums of each chunk to `take`: points first .. last - 1 (new
  * numbers). */
 typedef void (*list_take) (void *context, const bond_list *list, size_t first, size_t last,

@@ -124,7 +124,8 @@ INLINE int OF_LAW (_chunk) (const bond_list *list, size_t chunk, double *sum, co
     { \
         return OF_LAW (_chunk) (list, chunk, sum, dim, check); \
     }
-#define NO_LOOP(dim, check) enum { GLUE (OF_LAW (_), GLUE (dim, check)) };   /* 0 in place of a loop: a null pointer */
+/* A loop that does not exist is an enumerator of value 0, which becomes a null pointer in the table. */
+#define NO_LOOP(dim, check) enum { GLUE (OF_LAW (_), GLUE (dim, check)) };
 #if LEAST_DIMENSION == 1
 LOOP_OF (1, 0) LOOP_OF (1, 1)
 #else

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A list of bonds, of whatever law: made, kept in line with the bonds that live, run, and asked what died. */
+ * Lists of bonds, whatever the law: creation, updates of intact bonds, loops, bonds that broke in a loop. */
 #include "list.h"
 #include <string.h>
 
 /* ---- building ------------------------------------------------------------------------------------------ */
 enum { MOST_THREADS = 64 };
 
-/* Places in lattice steps where the law wants them and there is a lattice, so that bonds come out alike
- * everywhere; else as they are. */
+/* Writes the positions of points to the records: in lattice steps if the law asks for it and there is a
+ * lattice, so that bonds are the same everywhere; else in m. */
 static void place_records (bond_list *list)
 {
     const pg_sums *sums = list->sums;
@@ -43,8 +43,8 @@ void pg_list_free (void *self)
     pg_free (list);
 }
 
-/* Points a chunk. Larger chunks share more bonds, smaller ones feed more threads and stay in the second
- * cache; the ends of shared bonds are offsets of 16 bits. */
+/* Returns the points of a chunk. Larger chunks share more bonds, smaller ones serve more threads and stay in
+ * the second cache; offsets of the ends of shared bonds have 16 bits. */
 static size_t chunk_size (const bond_list *list)
 {
     size_t most = list->law.shared ? 8192 : 32768 / (size_t) list->pitch, c = list->n / 32;
@@ -53,7 +53,7 @@ static size_t chunk_size (const bond_list *list)
     return (c + LIST_LANES - 1) / LIST_LANES * LIST_LANES;
 }
 
-/* What does not depend on how many bonds there are */
+/* Allocates the arrays whose size does not depend on the number of bonds. */
 static pg_status allocate (bond_list *list)
 {
     pg_status status = PG_OK;
@@ -68,8 +68,8 @@ done:
     return status;
 }
 
-/* A list for one law: order of the points, records, slots. `bytes` are those of the struct of the law,
- * which begins with the list; prepare may set units before terms are asked for. */
+/* Makes a list for one law: order of the points, records, slots. bytes: size of the law's struct, which
+ * begins with the list; prepare may set units before the numbers of bonds are computed. */
 pg_status pg_list_create (void **self, size_t bytes, const pg_bond_loop_setting *setting, pg_instructions set,
                           const list_law *law, list_prepare prepare)
 {
@@ -100,7 +100,8 @@ done:
 }
 
 /* ---- bonds of the family and bits of the list ---------------------------------------------------------- */
-/* Entry of the family for the bond from i to j, which must exist; neighbours ascend. */
+/* Returns the entry of the family of the bond from i to j, which must exist, by bisection, as neighbours
+ * ascend. */
 size_t pg_list_entry (const pg_family *family, size_t i, size_t j)
 {
     size_t low = family->start[i], high = family->start[i + 1];
@@ -112,7 +113,7 @@ size_t pg_list_entry (const pg_family *family, size_t i, size_t j)
     return low;
 }
 
-/* The point whose family has this entry, by bisection. */
+/* Returns the point whose family has this entry, by bisection. */
 size_t pg_list_owner (const pg_family *family, size_t entry)
 {
     size_t low = 0, high = family->n;
@@ -126,7 +127,8 @@ size_t pg_list_owner (const pg_family *family, size_t entry)
 
 typedef struct { bond_list *list; const unsigned char *alive; } update;
 
-/* Bits of some slices, from the live bonds of the family; NULL: all live. */
+/* Sets the alive bits of slices first .. last - 1 from the mask of the family; g->alive NULL: all bonds are
+ * intact. */
 static void read_bits (void *context, size_t first, size_t last, int thread)
 {
     const update *g = context;
@@ -140,7 +142,7 @@ static void read_bits (void *context, size_t first, size_t last, int thread)
                 for (size_t lane = 0; lane < LIST_LANES; lane++) {
                     size_t p = slice * LIST_LANES + lane;
                     size_t q = pg_list_end (list, slots, slice, LIST_LANES * slot + lane);
-                    if (p == q) continue;              /* no bond here */
+                    if (p == q) continue;              /* a lane without a bond */
                     size_t i = (size_t) list->point[p], j = (size_t) list->point[q];
                     bits |= (unsigned) (!g->alive || g->alive[pg_list_entry (list->family, i, j)]) << lane;
                 }
@@ -148,7 +150,7 @@ static void read_bits (void *context, size_t first, size_t last, int thread)
             }
 }
 
-/* Clears the bond from p to q where p keeps it. */
+/* Clears the alive bit of the bond from p to q (new numbers) if it is stored at p. */
 static void clear_bond (bond_list *list, bond_slots *slots, size_t p, size_t q)
 {
     size_t slice = p / LIST_LANES, lane = p % LIST_LANES;
@@ -157,8 +159,8 @@ static void clear_bond (bond_list *list, bond_slots *slots, size_t p, size_t q)
             slots->alive[slot] &= (unsigned char) ~(1u << lane);
 }
 
-/* A bond that died stands in the family of both ends; in the list it is stored by one of them where it is
- * shared, else by both. */
+/* Clears the alive bits of bonds that broke. A bond is in the families of both ends; in the list it is stored
+ * at one of them if it is shared, else at both. */
 static void clear_changed (bond_list *list, const pg_changes *changes)
 {
     const pg_family *family = list->family;
@@ -170,7 +172,8 @@ static void clear_changed (bond_list *list, const pg_changes *changes)
     }
 }
 
-/* changes NULL: all bits anew, from the live bonds of the family. */
+/* Updates the alive bits: changes NULL: all, from the mask `alive` of the family; else those of the bonds
+ * that broke. */
 void pg_list_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     bond_list *list = self;
@@ -181,8 +184,8 @@ void pg_list_update (void *self, const unsigned char *alive, const pg_changes *c
 /* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { bond_list *list; const double *u; list_kernel kernel; list_take take; void *context; } run;
 
-/* The unknowns of points first .. last - 1. Old numbers may lie anywhere: what comes soon is asked for
- * ahead. */
+/* Copies the m unknowns of points first .. last - 1 (new numbers) to their records; as old numbers are in no
+ * order, later ones are prefetched. */
 static inline __attribute__ ((always_inline)) void copy_unknowns (const run *g, size_t first, size_t last,
                                                                   const size_t m)
 {
@@ -198,7 +201,7 @@ static inline __attribute__ ((always_inline)) void copy_unknowns (const run *g, 
     }
 }
 
-/* The number of unknowns is a constant in each branch. */
+/* Copies unknowns of points first .. last - 1; their number is a constant in each branch. */
 static void read_points (void *context, size_t first, size_t last, int thread)
 {
     const run *g = context;
@@ -211,14 +214,14 @@ static void read_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Unknowns u (n x m, the points' own order) to the records, in the list's order and unit. */
+/* Copies unknowns u (n x m, old numbers) to the records, in the order and unit of the list. */
 void pg_list_read (bond_list *list, const double *u)
 {
     pg_parallel (list->threads, list->n, read_points, &(run) { .list = list, .u = u });
 }
 
-/* The records of a chunk from memory into the second cache in one go: bonds visit them in no order that a
- * prefetcher would see. Plain reads: hints to prefetch so many lines are dropped. */
+/* Reads the records of points first .. last - 1 into the second cache in one go: bonds use them in an order
+ * that no prefetcher predicts. Plain reads, as processors drop so many prefetch instructions. */
 static void warm_records (const bond_list *list, size_t first, size_t last)
 {
     enum { LINE = 8 };                                 /* doubles of a cache line */
@@ -229,7 +232,8 @@ static void warm_records (const bond_list *list, size_t first, size_t last)
     (void) unused;
 }
 
-/* Each chunk is the work of one thread: what order its sums have does not depend on their number. */
+/* Sums the chunks first .. last - 1, each by one thread, so that the order of sums does not depend on
+ * threads. */
 static void run_chunks (void *context, size_t first, size_t last, int thread)
 {
     const run *g = context;
@@ -245,7 +249,7 @@ static void run_chunks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* One loop of the law over all chunks; `take` gets the sums of each chunk's points while they are in the
+/* Runs a loop of the law over all chunks; `take` gets the sums of each chunk's points while they are in the
  * cache. */
 void pg_list_run (bond_list *list, int loop, int check, list_take take, void *context)
 {
@@ -254,10 +258,11 @@ void pg_list_run (bond_list *list, int loop, int check, list_take take, void *co
     pg_parallel_heavy (list->threads, list->chunks, run_chunks, &g);
 }
 
-/* ---- bonds that died ----------------------------------------------------------------------------------- */
+/* ---- broken bonds -------------------------------------------------------------------------------------- */
 typedef struct { const bond_list *list; size_t n; size_t *bond; } collector;
 
-/* Notes, or counts, the bonds of a slot whose bits are set; a shared one in both directions. */
+/* Lists the entries of the bonds of a slot that broke (bits `lost`), or counts them (g->bond NULL); a shared
+ * bond in both directions. */
 static void collect (collector *g, const bond_slots *slots, size_t slice, size_t slot)
 {
     const bond_list *list = g->list;
@@ -274,7 +279,7 @@ static void collect (collector *g, const bond_slots *slots, size_t slice, size_t
 
 enum { COLLECT, FORGET, RESTORE };
 
-/* Slots of one slice in which bonds died: noted, forgotten or brought back to life. */
+/* Collects, forgets, or makes intact again the broken bonds of a slice. */
 static void walk_slots (bond_slots *slots, size_t slice, int what, collector *found)
 {
     for (size_t slot = slots->start[slice]; slot < slots->start[slice + 1]; slot++) {
@@ -285,7 +290,8 @@ static void walk_slots (bond_slots *slots, size_t slice, int what, collector *fo
     }
 }
 
-/* Bonds that died, in all chunks that have lost any: noted, forgotten or brought back to life. */
+/* Collects, forgets, or makes intact again the bonds that broke in the last loop, in all chunks that lost
+ * any. */
 static void walk_lost (bond_list *list, int what, collector *found)
 {
     for (size_t chunk = 0; chunk < list->chunks; chunk++) {
@@ -298,8 +304,8 @@ static void walk_lost (bond_list *list, int what, collector *found)
     }
 }
 
-/* Appends what died in the last loop. Counted first, so that memory is asked for once; without memory the
- * bonds live again, as nobody has been told of their end. */
+/* Appends the bonds that broke in the last loop. They are counted first, so that memory is allocated once;
+ * without memory they become intact again, as the caller does not know of them. */
 pg_status pg_list_lost (bond_list *list, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -316,8 +322,8 @@ done:
     return status;
 }
 
-/* ---- what it costs ------------------------------------------------------------------------------------- */
-/* Bytes that one loop moves. Lanes without a bond cost as much as bonds do. */
+/* ---- memory traffic ------------------------------------------------------------------------------------ */
+/* Memory traffic of one loop, bytes per bond and per point. Lanes without a bond cost as much as bonds do. */
 void pg_list_bytes (const void *self, double *per_bond, double *per_point)
 {
     const bond_list *list = self;
@@ -328,8 +334,8 @@ void pg_list_bytes (const void *self, double *per_bond, double *per_point)
         bytes += (double) list->slots[k].start[list->slices] * (LIST_LANES * bond + 1);
     }
     *per_bond = bonds > 0 ? bytes / bonds : 0;
-    /* unknowns and forces; new and old number twice; record written and read; share of the slices' starts and
-     * limits */
+    /* unknowns and forces; number of the point, twice; record written and read; share of the slices' starts
+     * and limits */
     *per_point = points > 0 ? 2.0 * list->law.unknowns * sizeof (double) + 2 * sizeof (int)
                               + 1.5 * list->pitch * sizeof (double)
                               + 2 * (2 * sizeof (size_t) + 1.0) / LIST_LANES : 0;

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Order of the points of a list of bonds: slabs of equal numbers along one axis, cut along the next ones into
- * compact chunks; in a chunk points with many bonds out of it, then with many bonds in it first, so that the
- * slots of a slice are full. */
+ * Order of the points of a list of bonds: slabs of equal numbers of points along one axis are cut along the
+ * next axes into compact chunks, and these into tiles; in a tile points with many bonds out of the chunk come
+ * first, then those with many bonds in it, so that the slots of a slice are full. */
 #include "list.h"
 #include <math.h>
 #include <stdlib.h>
 
-enum { TILE = 256 };  /* points summed one after the other: their records stay in the first cache */
+enum { TILE = 256 };  /* points of a tile, whose records fit into the first cache */
 
 typedef struct { double key; int point; } item;
-/* bonds of a point to other chunks and to later points of its own one */
+/* Numbers of bonds of a point to other chunks (out) and to later points of its own chunk (in). */
 typedef struct { int out, in, point, rank; } load;
 
-/* Along an axis; equal places by number, so that the order never depends on the sort. */
+/* Compares positions along an axis; equal ones by number, so that the order does not depend on the sort. */
 static int by_key (const void *a, const void *b)
 {
     const item *p = a, *q = b;
     return p->key < q->key ? -1 : p->key > q->key ? 1 : (p->point > q->point) - (p->point < q->point);
 }
 
-/* Most bonds out of the chunk first, then most within it, then the order of the tile. */
+/* Compares loads: most bonds out of the chunk first, then most within it, then by rank. */
 static int by_load (const void *a, const void *b)
 {
     const load *p = a, *q = b;
@@ -28,8 +28,8 @@ static int by_load (const void *a, const void *b)
                             : (p->rank > q->rank) - (p->rank < q->rank);
 }
 
-/* Sorts n items along `axis`, cuts them into slabs of whole chunks about as thick as a chunk is wide, goes on
- * along the axes below. */
+/* Sorts n items along `axis`, cuts them into slabs of whole chunks, about as thick as a chunk is wide, and
+ * these along the axes below. wide: extent of the items along each axis, m; chunk: points of a chunk. */
 static void cut (item *items, size_t n, const pg_cloud *cloud, const double *wide, size_t chunk, int axis)
 {
     size_t dim = (size_t) cloud->dim, pieces = (n + chunk - 1) / chunk;
@@ -46,7 +46,7 @@ static void cut (item *items, size_t n, const pg_cloud *cloud, const double *wid
         cut (items + k, n - k < step ? n - k : step, cloud, wide, chunk, axis - 1);
 }
 
-/* Compact tiles in every chunk: near ones are summed one after the other. */
+/* Sorts the points into compact chunks, and those of every chunk into compact tiles. */
 static void cut_all (item *items, size_t n, const pg_cloud *cloud, size_t chunk)
 {
     int dim = cloud->dim;
@@ -67,8 +67,8 @@ static void cut_all (item *items, size_t n, const pg_cloud *cloud, size_t chunk)
     }
 }
 
-/* Of each point of a chunk: bonds that leave it, and bonds to later points of it, which the point stores
- * for both. */
+/* Counts for each point first .. last - 1 of a chunk the bonds that leave the chunk, and the bonds to later
+ * points of it, which are stored at this point. */
 static void count_bonds (load *loads, const bond_list *list, size_t first, size_t last)
 {
     const pg_family *family = list->family;
@@ -84,9 +84,9 @@ static void count_bonds (load *loads, const bond_list *list, size_t first, size_
     }
 }
 
-/* Fills point (old number by new one), rank (the other way round) and before, the order before the points
- * of a tile were sorted by load: of two ends of a shared bond the one that comes earlier there stores it,
- * which spreads them evenly. */
+/* Fills point (old number by new one), rank (new number by old one) and before, the rank before the points of
+ * a tile were sorted by load: a shared bond is stored at the end for which it is lower, which spreads bonds
+ * evenly. */
 pg_status pg_list_order (bond_list *list)
 {
     pg_status status = PG_OK;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* What list_instances.h asks of a width: V is a vector of WIDTH numbers, here one; V_KEEP clears lanes
- * whose bit is not set; V_LEAST tells by bits where a >= b. */
+/* Operations that list_instances.h needs: V is a vector of WIDTH numbers, here one; V_KEEP clears lanes whose
+ * bit is not set; V_LEAST: bits of the lanes where a >= b. */
 #define TABLE  pg_list_scalar
 #define TARGET
 #define V      double
@@ -16,13 +16,13 @@
 #define V_ROOT(v)        sqrt (v)
 #define V_KEEP(v, bits)  ((bits) ? (v) : 0.0)
 #define V_LEAST(a, b)    ((a) >= (b) ? 1u : 0u)
-/* One row of the record of the other end; *o is its offset, counted in numbers. */
+/* Fetches the first numbers of the record at offset *o (in doubles). */
 #define FETCH(record, o, columns, out) \
     do { \
         const double *row_ = (record) + *(o); \
         UNROLL for (int c_ = 0; c_ < (columns); c_++) (out)[c_] = row_[c_]; \
     } while (0)
-/* Subtracts the force f from the sums of the other end, which have half the columns of its record. */
+/* Subtracts the force f from the sums of the other end, which are half as long as its record. */
 #define GIVE(sum, o, dim, f) \
     do { \
         double *to_ = (sum) + *(o) / 2; \

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bonds that pull along themselves (bond-based theory), from a list: any points, any number of materials.
- * The law is in law_pair.h. */
+ * Pair forces along bonds (bond-based theory), from a list: any points, any number of materials. The law is
+ * in law_pair.h. */
 #include "list.h"
 #include <math.h>
 #include <string.h>
 
 typedef struct {
-    bond_list list;                                    /* first: the traversal sees it alone */
-    int     finite;
-    double  unit;                                      /* m per unit of the records' places */
-    double *energy;                                    /* of each chunk */
+    bond_list list;                                    /* first, as the traversal takes a bond_list */
+    int     finite;                                    /* 1: finite stretch */
+    double  unit;                                      /* m per unit of positions in records */
+    double *energy;                                    /* energy of each chunk */
 } pair_list;
 
 static const char *refusal (const pg_bond_loop_setting *setting) { (void) setting; return NULL; }
@@ -23,15 +23,15 @@ static void release (void *self)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-/* The modulus of a bond is the harmonic mean of those of its ends. */
+/* Returns the modulus of a bond: the harmonic mean of those of its ends, N/m^6. */
 static double pair_modulus (const double *c, size_t i, size_t j)
 {
     if (c[i] == c[j]) return c[i];
     return c[i] + c[j] > 0 ? 2 * (c[i] * c[j]) / (c[i] + c[j]) : 0;
 }
 
-/* On a lattice of equal steps places are whole numbers of steps, exact in every bond; `unit` is a step
- * then. Displacements of finite stretch are scaled to the same unit. */
+/* Sets the unit of records: on a lattice of equal steps positions are whole numbers of steps, exact in every
+ * bond, and `unit` is a step. Displacements of finite stretch are scaled to the same unit. */
 static void prepare (bond_list *list)
 {
     pair_list *s = (pair_list *) list;
@@ -40,7 +40,8 @@ static void prepare (bond_list *list)
     list->scale = s->finite ? 1 / s->unit : 1;
 }
 
-/* a of law_pair.h in units of the records: linear c k beta g V V / r^3, finite r^2 times this */
+/* list_law.term: a of law_pair.h in units of the records: linear c k beta g V V / r^3, finite r^2 times
+ * this. */
 static void term (const bond_list *list, size_t i, size_t j, const double *xi, double weight, double *out)
 {
     const pair_list *s = (const pair_list *) list;
@@ -51,8 +52,8 @@ static void term (const bond_list *list, size_t i, size_t j, const double *xi, d
     out[0] = s->finite ? pull * s->unit : pull / rr * (s->unit * s->unit);
 }
 
-/* The limit as law_pair.h compares it: of the smaller critical stretch of both ends, in the unit of the
- * records. */
+/* list_law.limit: limit of law_pair.h over r^2, from the smaller critical stretch of both ends, in the unit
+ * of records. */
 static double limit (const bond_list *list, size_t i, size_t j)
 {
     const pair_list *s = (const pair_list *) list;
@@ -60,7 +61,7 @@ static double limit (const bond_list *list, size_t i, size_t j)
     return s->finite ? s0 * (2 + s0) : s0 * s->unit;
 }
 
-/* Bonds within a chunk are shared: stored once, and summed for both ends. */
+/* Makes the list. Bonds within a chunk are shared: stored once, and summed for both ends. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -75,13 +76,13 @@ done:
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
-/* Sums of a chunk to the points' own numbers, N. `dim` is a constant in each call; sums of three
- * components lie four apart. */
+/* Copies the forces of a chunk, N, to f in the order of old numbers. `dim` is a constant in each call; sums
+ * of three components are four numbers apart. */
 static inline __attribute__ ((always_inline)) void copy_forces (double *f, const bond_list *list,
                                                                 size_t first, size_t last,
                                                                 const double *sum, const size_t dim)
 {
-    enum { AHEAD = 40 };                               /* old numbers may lie anywhere */
+    enum { AHEAD = 40 };                               /* prefetched, as old numbers are in no order */
     const size_t wide = dim == 3 ? 4 : dim;
     for (size_t p = first; p < last; p++, sum += wide) {
         if (p + AHEAD < last) __builtin_prefetch (f + (size_t) list->point[p + AHEAD] * dim, 1);
@@ -89,7 +90,7 @@ static inline __attribute__ ((always_inline)) void copy_forces (double *f, const
     }
 }
 
-/* One copy of the loop per dimension. */
+/* list_take: copies the forces of a chunk, by a loop for each dimension. */
 static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     switch (list->dim) {
@@ -99,7 +100,8 @@ static void take_forces (void *f, const bond_list *list, size_t first, size_t la
     }
 }
 
-/* Forces of all points, N; with `broken` bonds over their limit die on the way. */
+/* Forces f of all points, N; unless broken is NULL, bonds over their limit are broken before they are
+ * summed. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pair_list *s = self;
@@ -110,7 +112,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
 }
 
 /* ---- energy -------------------------------------------------------------------------------------------- */
-/* Linear a (xi.eta)^2, finite a (|y| - r)^2, of one bond: twice its energy. */
+/* Twice the energy of one bond between the records from and to: linear a (xi.eta)^2, finite a (|y| - r)^2. */
 static double bond_energy (const pair_list *s, const double *from, const double *to, double a)
 {
     int dim = s->list.dim;
@@ -125,8 +127,8 @@ static double bond_energy (const pair_list *s, const double *from, const double 
 
 typedef struct { pair_list *s; double *W; } storing;
 
-/* Adds what the bonds of a slice's slots of one sort store to `sum`, or to the `share` of each end (of the
- * chunk's points from `start` on) where that is wanted. */
+/* Adds twice the energies of the bonds of a slice of one sort to `sum`, or, if share is not NULL, to the
+ * share of each of their ends (points of the chunk, from `start` on). */
 static void slice_energy (const pair_list *s, const bond_slots *slots, size_t slice, double *sum,
                           size_t start, double *share)
 {
@@ -145,7 +147,8 @@ static void slice_energy (const pair_list *s, const bond_slots *slots, size_t sl
     }
 }
 
-/* A bond stored once is two directed bonds: a half of it, a quarter of one stored at both ends. */
+/* Energies of the chunks first .. last - 1: of bond_energy half for a bond stored once, a quarter for each
+ * end of one stored at both. */
 static void sum_energies (void *context, size_t first, size_t last, int thread)
 {
     pair_list *s = context;
@@ -162,7 +165,7 @@ static void sum_energies (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Energy of the body, J: chunks are added in their order, whatever thread summed them. */
+/* Energy of the body, J: chunks are added in their order, whichever thread summed them. */
 static double energy (void *self, const double *u)
 {
     pair_list *s = self;
@@ -173,7 +176,8 @@ static double energy (void *self, const double *u)
     return s->finite ? sum * s->unit : sum;
 }
 
-/* Each end's quarter of what its directed bonds store, over the point's volume */
+/* Energy densities of the points of chunks first .. last - 1, J/m^3: a quarter of bond_energy of each bond,
+ * over the volume of the point. */
 static void share_energies (void *context, size_t first, size_t last, int thread)
 {
     const storing *g = context;

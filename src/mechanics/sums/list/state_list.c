@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * State-based bonds (linear peridynamic solid) from a list, for any cloud: a loop for the dilatations, in
- * which bonds over their limit die, then one for the forces. Every point sums its own bonds in the order of
- * the family. The laws are in law_state.h; theory B6. */
+ * which bonds over their limit are broken, then one for the forces. Every point sums its own bonds in the
+ * order of the family. The laws are in law_state.h; theory B6. */
 #include "list.h"
 #include "mechanics/sums/terms/state.h"
 #include "perigal/vector.h"
@@ -10,9 +10,9 @@
 
 enum { DILATE, PULL, WEIGHT, TERMS };                  /* numbers of a bond: w V_j, w V_i V_j, w */
 typedef struct {
-    bond_list list;                                    /* first: the traversal sees it alone */
-    double *q, *W;                                     /* of points in their own order (n) */
-    double *factor, *alpha;                            /* in that of the list: A d / q^2, sum w V p (n) */
+    bond_list list;                                    /* first, as the traversal takes a bond_list */
+    double *q, *W;                                     /* weighted volume, energy density, old numbers (n) */
+    double *factor, *alpha;                            /* A d / q^2, sum w V p, by new number (n) */
 } state_list;
 
 /* Frees the loop, also one that was never completed. */
@@ -23,7 +23,8 @@ static void release (void *self)
     pg_list_free (s);
 }
 
-/* xi from the places of the points, which on a lattice differ from the lattice's own by rounding */
+/* Bond vector xi from the positions of the points, m; on a lattice it may differ from the stencil's by
+ * rounding. */
 static void between (const bond_list *list, size_t i, size_t j, double *xi)
 {
     const double *x = list->sums->cloud->x;
@@ -32,15 +33,15 @@ static void between (const bond_list *list, size_t i, size_t j, double *xi)
 }
 
 /* ---- q ------------------------------------------------------------------------------------------------- */
-/* Alpha and beta of a record, which the loop for the forces reads. */
+/* Writes A theta / q and beta to the record of point p (new number), for the loop for the forces. */
 static void set_record (state_list *s, size_t p, double beta)
 {
     double *of = s->list.record + p * (size_t) s->list.pitch + 2 * (size_t) s->list.dim;
     of[0] = s->factor[p] * s->alpha[p], of[1] = beta;
 }
 
-/* q = sum w r^2 V_j of point i over the bonds that `counts` (entries of the family) or, where that is NULL,
- * the list has alive; and what follows from it. */
+/* Computes q = sum w r^2 V_j of point i over the bonds marked in `counts` (entries of the family), or over
+ * the intact bonds of the list if that is NULL, and from it factor and beta. */
 static void weigh (state_list *s, size_t i, const unsigned char *counts)
 {
     const bond_list *list = &s->list;
@@ -60,7 +61,7 @@ static void weigh (state_list *s, size_t i, const unsigned char *counts)
 
 typedef struct { state_list *s; const unsigned char *counts; } weighing;
 
-/* A range of points, for pg_parallel. */
+/* `weigh` for points first .. last - 1. */
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
     const weighing *w = context;
@@ -68,13 +69,13 @@ static void weigh_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) weigh (w->s, i, w->counts);
 }
 
-/* All points: at the start, and after another state was read. */
+/* `weigh` for all points: at the start, and after another state was read. */
 static void weigh_all (state_list *s, const unsigned char *counts)
 {
     pg_parallel_heavy (s->list.threads, s->list.n, weigh_points, &(weighing) { s, counts });
 }
 
-/* The points that lost bonds, which ascend: each once */
+/* `weigh` for the points that lost n bonds, which ascend, so that each point is computed once. */
 static void weigh_some (state_list *s, size_t n, const size_t *bond)
 {
     size_t last = SIZE_MAX;
@@ -85,7 +86,7 @@ static void weigh_some (state_list *s, size_t n, const size_t *bond)
     }
 }
 
-/* Weighted volumes follow the live bonds only where the rule says so; else they are those of the start. */
+/* Updates the alive bits, and the weighted volumes if the rule says that these follow the intact bonds. */
 static void update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     state_list *s = self;
@@ -96,8 +97,8 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-/* The numbers of one bond: w V_j for the dilatation, w V_i V_j for the force, w for the weighted volume;
- * w = k beta / r. */
+/* list_law.term: w V_j for the dilatation, w V_i V_j for the force, w for the weighted volume, w = k beta /
+ * r. */
 static void term (const bond_list *list, size_t i, size_t j, const double *unused, double weight, double *out)
 {
     const double *V = list->sums->cloud->volume;
@@ -108,13 +109,13 @@ static void term (const bond_list *list, size_t i, size_t j, const double *unuse
     out[DILATE] = w * V[j], out[PULL] = w * (V[i] * V[j]), out[WEIGHT] = w;
 }
 
-/* A bond breaks at the smaller limit of its ends. */
+/* list_law.limit: the smaller critical stretch of both ends. */
 static double limit (const bond_list *list, size_t i, size_t j)
 {
     return fmin (list->setting.limit[i], list->setting.limit[j]);
 }
 
-/* Records of 8 numbers: place, displacement, alpha and beta. */
+/* Makes the list, with records of 8 numbers: position, displacement, alpha and beta. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -132,8 +133,8 @@ done:
     return status;
 }
 
-/* Two loops, each of which reads the ends, the bits and one number of every bond, and a record of every
- * point. */
+/* Memory traffic of a sum, bytes: two loops, each of which reads ends, bits and one number of every bond, and
+ * a record of every point. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const state_list *s = self;
@@ -141,12 +142,12 @@ static void bytes (const void *self, double *per_bond, double *per_point)
     const double bonds = (double) s->list.family->start[s->list.n];
     pg_list_bytes (self, per_bond, per_point);
     *per_bond = bonds > 0 ? 2 * slots * (LIST_LANES * (sizeof (uint32_t) + sizeof (double)) + 1) / bonds : 0;
-    *per_point += 6 * sizeof (double);                 /* alpha, factor twice; alpha and beta of the record */
+    *per_point += 6 * sizeof (double);                 /* alpha, factor twice; alpha and beta in records */
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* alpha of the points of a chunk, from the sums of their bonds, to where the loop for the forces reads
- * it. */
+/* list_take: keeps the sums w V p of a chunk's points, and writes A theta / q to their records for the loop
+ * for the forces. */
 static void take_dilatations (void *context, const bond_list *list, size_t first, size_t last,
                               const double *sum)
 {
@@ -160,7 +161,7 @@ static void take_dilatations (void *context, const bond_list *list, size_t first
 
 typedef struct { state_list *s; double *out; } pass;
 
-/* Sums to the points' own numbers, N. */
+/* list_take: copies the forces of a chunk, N, to f in the order of old numbers. */
 static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     int dim = list->dim;
@@ -170,8 +171,8 @@ static void take_forces (void *f, const bond_list *list, size_t first, size_t la
     }
 }
 
-/* Bonds over their limit die in the first loop, before their dilatation is summed; where weighted volumes
- * follow them, those of their ends are renewed before forces are. */
+/* Forces f, N. Bonds over their limit are broken in the first loop, before dilatations are summed; if
+ * weighted volumes follow the intact bonds, those of their ends are updated before the forces are summed. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -187,7 +188,7 @@ done:
     return status;
 }
 
-/* W_i = 1/2 [factor (sum w V p)^2 + beta sum w V p^2 / r^2] */
+/* list_take: energy density W_i = 1/2 [factor (sum w V p)^2 + beta sum w V p^2 / r^2], J/m^3. */
 static void take_energies (void *context, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     const pass *g = context;
@@ -207,7 +208,7 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-/* Energy of the body, J: points in their own order, so that threads do not show. */
+/* Energy of the body, J, summed in the order of points, so that it does not depend on threads. */
 static double energy (void *self, const double *u)
 {
     state_list *s = self;
@@ -217,7 +218,7 @@ static double energy (void *self, const double *u)
     return sum;
 }
 
-/* theta = d / q sum w V p */
+/* list_take: dilatation theta = d / q sum w V p. */
 static void take_theta (void *context, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     const pass *g = context;
@@ -227,7 +228,7 @@ static void take_theta (void *context, const bond_list *list, size_t first, size
     }
 }
 
-/* Dilatation (no unit) and weighted volume; either may be NULL. */
+/* Dilatation theta (1) and weighted volume q of all points; either may be NULL. */
 static pg_status dilatation (void *self, const double *u, double *theta, double *q)
 {
     state_list *s = self;

@@ -8,8 +8,8 @@
 
 static const double pi = 3.14159265358979323846264338327950288;
 
-/* The ratio at which bonds that bear no shear are enough: 1/3 in plane stress, 1/4 in plane strain and
- * space (theory A). Above it the shear stiffness of a beam would be negative. */
+/* Poisson's ratio at which bonds need no shear stiffness: 1/3 in plane stress, 1/4 in plane strain and 3D
+ * (theory A). Above it the shear stiffness of a beam would be negative. */
 double pg_beam_poisson (pg_mode mode)
 {
     return mode == PG_LINE ? 0 : mode == PG_PLANE_STRESS ? 1.0 / 3 : 0.25;
@@ -21,9 +21,9 @@ static double moment (const pg_kernel *kernel, double horizon, int n)
     return pow (horizon, n + 1) * pg_kernel_moment (kernel, n);
 }
 
-/* int_0^horizon k r^(dim - 2) dr, m^(dim - 1): what the sum of the shear stiffnesses, which fall with 1 /
- * r, tends to. In a plane the integrand is k itself, which must be bounded at r = 0 for a value that does
- * not depend on the shortest bonds. */
+/* int_0^horizon k r^(dim - 2) dr, m^(dim - 1): the integral for shear stiffnesses, which fall with 1 / r. In
+ * 2D the integrand is k itself, which must be bounded at r = 0, as the value must not depend on the shortest
+ * bonds. */
 static pg_status shear_moment (double *out, const pg_kernel *kernel, double horizon, int dim)
 {
     pg_status status = PG_OK;
@@ -40,8 +40,8 @@ done:
 /* Axial modulus c_n and shear modulus c_t of bonds, whose stiffnesses are c_n k V V / r and 12 c_t k V V
  * / r^3. They follow from the energy of a body in uniform strain without rotation, which must be that of
  * E and nu: two equations, one from the dilatation and one from the shear (Chen 2022, with the
- * corrections of theory G1). The denominators vanish where the plane or solid modulus has no bound. At nu
- * = pg_beam_poisson the shear modulus is zero, and made exactly so. */
+ * corrections of theory G1). The denominators vanish where the 2D or 3D bulk modulus becomes infinite. At nu
+ * = pg_beam_poisson the shear modulus is set to exactly zero. */
 pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_kernel *kernel, double horizon,
                           double E, double nu, double thickness)
 {
@@ -64,14 +64,14 @@ pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_k
         *axial = 2 * E / (pi * thickness * moment (kernel, horizon, 2) * (1 + nu) * (1 - 2 * nu));
         *shear = E * (1 - 4 * nu) / (6 * pi * thickness * across * (1 + nu) * (1 - 2 * nu));
     }
-    if (fabs (nu - pg_beam_poisson (mode)) <= 1e-9) *shear = 0;  /* a third and a quarter are meant exactly */
+    if (fabs (nu - pg_beam_poisson (mode)) <= 1e-9) *shear = 0;  /* a rounded 1/3 or 1/4 counts as exact */
 done:
     return status;
 }
 
-/* A body of E and nu as one of bonds with another ratio beside an energy of the dilatation: both have the
- * shear modulus E / (2 (1 + nu)), from which the modulus of the bonds follows; what their bulk modulus
- * lacks is the dilatation's part, Pa (theory G3). */
+/* Splits E and nu of a body into bonds with another Poisson's ratio and an energy of the dilatation: the
+ * bonds have the shear modulus E / (2 (1 + nu)) of the body, from which their Young's modulus follows; the
+ * dilatation has the difference in bulk modulus, Pa (theory G3). */
 void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu,
                     double bond_poisson)
 {
@@ -82,12 +82,11 @@ void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double
     *dilation -= bonds;
 }
 
-/* ---- points at hand ------------------------------------------------------------------------------------ */
-/* The sum of k beta V / r over the bonds of a point inside the body, m^(dim - 1) for points of unit
- * thickness: the discrete counterpart of shear_moment times the unit circle or sphere. Irregular points
- * have no stencil to take it from, so it is the median over the points whose family is whole (at least
- * 0.8 of the largest family's volume), which a few odd points do not move. Families of points of other
- * sizes are scaled to the spacing h of the cloud by `ratio`. */
+/* ---- sums over the bonds of these points --------------------------------------------------------------- */
+/* Sum of k beta V / r over the bonds of a point inside the body, m^(dim - 1) for unit thickness: the discrete
+ * counterpart of shear_moment times the unit circle or sphere. Irregular points have no stencil, so that it
+ * is the median over the points whose family is whole (at least 0.8 of the largest family volume), which is
+ * robust. In graded clouds families are scaled to the spacing h of the cloud by `ratio`. */
 static pg_status shear_of_cloud (double *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -113,10 +112,10 @@ done:
     return status;
 }
 
-/* Sums over the bonds that cross a straight cut, for the energy that a crack along the lattice takes. Of
- * each bond that leads towards +axis as many cross a cut of one cell's width as it has sites along the
- * axis: their number is xi_axis / step, each with the weight of a cell, averaged over the axes. along:
- * sum of k beta r, for stretched bonds; across: of k beta / r, for sheared ones. */
+/* Sums over the bonds that cross a straight cut, for the energy of a crack along the lattice, averaged over
+ * the axes. A bond of the stencil towards +axis crosses a cut of one cell's width xi_axis / step times, each
+ * time with the weight of a cell. along: sum of k beta r, for stretched bonds; across: of k beta / r, for
+ * sheared ones. */
 static void lattice_cuts (pg_beam_sums *out, const pg_stencil *s, double thickness)
 {
     for (int axis = 0; axis < s->dim; axis++)
@@ -128,10 +127,9 @@ static void lattice_cuts (pg_beam_sums *out, const pg_stencil *s, double thickne
         }
 }
 
-/* What the sums of this lattice or cloud are, beside the integrals of theory: `calibration` scales the
- * shear stiffness so that a uniform shear has the energy that it should; along and across are the
- * integrals over a cut, or with calibration the sums over it, so that a critical energy release rate
- * becomes a limit of the bonds at hand. */
+/* Measures the sums of this lattice or cloud: `calibration` scales the shear stiffness so that a uniform
+ * shear has the exact energy; along and across are the integrals over a cut, or on a lattice with calibration
+ * the sums over it, so that limits of these bonds follow from a fracture energy. */
 pg_status pg_beam_measure (pg_beam_sums *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -159,7 +157,7 @@ done:
 }
 
 /* ---- one bond ------------------------------------------------------------------------------------------ */
-/* Harmonic mean of a constant of two points, as of springs in series; 0 where one end has none. */
+/* Harmonic mean of a constant of two points, as of springs in series; 0 if it is 0 at one end. */
 static double between (const double *c, size_t i, size_t j)
 {
     double a = c[i], b = c[j];
@@ -167,8 +165,8 @@ static double between (const double *c, size_t i, size_t j)
 }
 
 /* Stiffnesses of one bond, N/m: along c_n k beta V V / r, shear 12 c_t k beta V V / r^3, bending over
- * length^2. In a graded cloud shear and bending are of a bond in the unit of the local spacing, hence the
- * square of `ratio`. */
+ * length^2. In a graded cloud shear and bending scale with the square of the local spacing, hence the square
+ * of `ratio`. */
 pg_beam pg_beam_between (const pg_bond_loop_setting *s, size_t i, size_t j, const double *xi, double weight)
 {
     const pg_cloud *cloud = s->sums->cloud;
@@ -180,7 +178,7 @@ pg_beam pg_beam_between (const pg_bond_loop_setting *s, size_t i, size_t j, cons
                        between (s->beams->bending, i, j) * wide / (length * length) };
 }
 
-/* X q = q x xi */
+/* Makes the matrix X with X q = q x xi, m. */
 static void lever_matrix (int dim, const double *xi, double X[3][3])
 {
     memset (X, 0, 9 * sizeof **X);
@@ -192,10 +190,10 @@ static void lever_matrix (int dim, const double *xi, double X[3][3])
     }
 }
 
-/* The rows of the stiffness matrix that belong to one end of a bond: `own` against that end, `other`
- * against the far one, both m x m with m unknowns of a point (dim displacements, then rotations times the
- * length). Seen from the far end `other` is its transpose, bit by bit, so that K is symmetric to the last
- * digit. */
+/* Blocks of the stiffness matrix of a bond for one of its ends, N/m: `own` for the unknowns of this end,
+ * `other` for those of the other end, both m x m with m unknowns of a point (dim displacements, then
+ * rotations times the length). For the other end `other` is transposed, bit by bit, so that K is symmetric to
+ * the last digit. */
 void pg_beam_blocks (int dim, const double *xi, const pg_beam *b, double length, double *own, double *other)
 {
     int m = beam_unknowns (dim), turns = m - dim;
@@ -220,8 +218,8 @@ void pg_beam_blocks (int dim, const double *xi, const pg_beam *b, double length,
         }
 }
 
-/* Shear angle gamma, and bending curvature times the length, of one bond; both are >= 0 (fields of
- * results). */
+/* Shear gamma (1) and bending kappa (rad, relative rotation of the ends across the bond) of one bond; both
+ * are >= 0. */
 void pg_beam_strain (int dim, const double *xi, double length, const double *di, const double *dj,
                      double *shear, double *bending)
 {

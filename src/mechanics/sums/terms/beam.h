@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * beam.h: one micropolar bond (private): what its ends do to each other, in unknowns u and q = length theta.
- * All terms change sign or stay, bit by bit, when the bond is looked at from its other end. */
+ * beam.h: one micropolar bond (private): forces and moments of its ends, in unknowns u and q = length theta.
+ * From the other end all terms have the opposite sign or the same, bit by bit. */
 #ifndef PERIGAL_SUMS_BEAM_H
 #define PERIGAL_SUMS_BEAM_H
 #include "perigal/sums.h"
@@ -9,7 +9,7 @@
  * m. */
 static inline int beam_unknowns (int dim) { return dim == 2 ? 3 : 6; }
 
-/* w = eta - lever (q_i + q_j) x xi, diff = q_j - q_i; lever: 1 / (2 length) */
+/* Computes w = eta - lever (q_i + q_j) x xi and diff = q_j - q_i, m; lever: 1 / (2 length), 1/m. */
 static inline void beam_motion (int dim, double lever, const double *xi, const double *di, const double *dj,
                                 double *w, double *diff)
 {
@@ -27,7 +27,7 @@ static inline void beam_motion (int dim, double lever, const double *xi, const d
     w[2] = (dj[2] - di[2]) - (sum[0] * xi[1] - sum[1] * xi[0]);
 }
 
-/* a . b of n components, first to last: the order is that of the loops. */
+/* Returns a . b of n components, summed from first to last as in the loops. */
 static inline double beam_dot (int n, const double *a, const double *b)
 {
     double sum = a[0] * b[0];
@@ -35,7 +35,7 @@ static inline double beam_dot (int n, const double *a, const double *b)
     return sum;
 }
 
-/* Adds force and moment on i to f; inverse: 1 / xi . xi */
+/* Adds force and moment (over the length) on i to f, N; inverse: 1 / (xi . xi), 1/m^2. */
 static inline void beam_pull (int dim, double lever, const double *xi, double inverse, const pg_beam *b,
                               const double *w, const double *diff, double *f)
 {
@@ -51,9 +51,9 @@ static inline void beam_pull (int dim, double lever, const double *xi, double in
     f[5] += lever * (xi[0] * g[1] - xi[1] * g[0]) + b->bending * (diff[2] - twist * xi[2]);
 }
 
-/* What a criterion asks of a bond: stretch s with its sign, gamma^2 with gamma = |w_perp| / r, and
- * kappa^2 from the turn across the bond; per_length: 1 / length, 1/m, or 1 where kappa is to stay a
- * length. */
+/* Measures of a bond for criteria: stretch s, gamma^2 with gamma = |w_perp| / r, and kappa^2 from the
+ * relative rotation across the bond. per_length: 1 / length, 1/m; or 1: kappa is multiplied by the length,
+ * m. */
 static inline void beam_measures (int dim, double per_length, const double *xi, double inverse,
                                   const double *w, const double *diff, double *s, double *shear2,
                                   double *bending2)

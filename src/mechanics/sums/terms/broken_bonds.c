@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lists of bonds that break while they are summed: each thread has its own, together they are ascending. */
+ * Lists of bonds that break while they are summed: each thread has its own; they are merged in ascending
+ * order. */
 #include "bond_loop.h"
 #include <string.h>
 
-/* Broken bonds are appended in ascending order, whatever order threads found them in: the files of a run
- * do not depend on its threads. */
+/* Broken bonds are appended in ascending order, in whatever order threads found them, so that the files of a
+ * run do not depend on threads. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
 {
     pg_status status = PG_OK;
@@ -17,8 +18,8 @@ done:
     return status;
 }
 
-/* Gathers the lists of all threads into the first one, and from there into `to`. A thread that had no
- * memory left its status in `failed`: the sums are not to be used then. */
+/* Gathers the lists of all threads in the first one, and appends that to `to`. A thread without memory has
+ * left its status in `failed`: then the sums must not be used. */
 pg_status pg_changes_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed)
 {
     pg_status status = PG_OK;

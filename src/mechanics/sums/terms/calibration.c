@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Calibration to a lattice (method.calibrate; theory A2): what the bonds of an infinite lattice add up to
- * over what they should. The hydrostatic energy gives the factor of the micromodulus, the energy of a
- * straight cut that of the fracture energy; the stiffness shows how isotropic the lattice is. */
+ * Calibration to a lattice (method.calibrate; theory A2): the sums over the bonds of an infinite lattice
+ * compared with the integrals of theory. The hydrostatic energy gives the factor of the micromodulus, the
+ * energy of a straight cut that of the fracture energy; the tangent shows how isotropic the lattice is. */
 #include "sums_private.h"
 #include <math.h>
 #include <string.h>
@@ -20,7 +20,8 @@ double pg_stencil_calibration (const pg_stencil *s, const pg_sum_rule *rule)
     return pg_sums_whole (rule, s->dim) / (sum * s->cell);
 }
 
-/* D = 1/2 sum c k beta r (n n^T) V, strain along the bond = n . (xx yy zz xy yz zx) */
+/* Tangent D = 1/2 sum c k beta r (n n^T) V, Pa, with n such that n . (xx yy zz xy yz zx) is the strain along
+ * a bond. */
 void pg_stencil_tangent (const pg_stencil *s, double c, double thickness, double *D)
 {
     static const int axis[3][6][2] = { { { 0, 0 } },
@@ -38,7 +39,7 @@ void pg_stencil_tangent (const pg_stencil *s, double c, double thickness, double
     }
 }
 
-/* Of each bond towards +axis as many cross a cut of one cell's width as it has sites along the axis. */
+/* A bond of the stencil towards +axis crosses a cut of one cell's width xi_axis / step times. */
 double pg_stencil_fracture_energy (const pg_stencil *s, double c, double thickness, double s0, int axis)
 {
     double sum = 0;

@@ -6,8 +6,8 @@
 
 static const double pi = 3.14159265358979323846264338327950288;
 
-/* Bonds that pull along themselves alone make Cauchy's relation lambda = mu in three dimensions and in
- * plane strain, thus nu = 1/4; in a plane of bonds it is nu = 1/3. */
+/* Pair forces along bonds give Cauchy's relation lambda = mu, thus nu = 1/4 in 3D and in plane strain; in
+ * plane stress it is nu = 1/3. */
 double pg_bond_poisson (pg_mode mode)
 {
     switch (mode) {
@@ -23,11 +23,10 @@ static double moment (const pg_kernel *kernel, double horizon, int n)
     return pow (horizon, n + 1) * pg_kernel_moment (kernel, n);
 }
 
-/* c from a stretch s that is the same in all directions. Bonds store W = 1/4 integral of c k(r) s^2 r
- * over the ball (each bond belongs to two points): A c s^2 m_1 / 2 on a line, pi t c s^2 m_2 / 2 in a
- * plane, pi c s^2 m_3 in space. Elasticity stores E s^2 / 2; E s^2 / (1 - nu) = 3/2 E s^2 in plane
- * stress; E s^2 / ((1 + nu) (1 - 2 nu)) = 8/5 E s^2 in plane strain; 3 E s^2 in a solid, with the nu of
- * above. */
+/* c (N/m^6) from a stretch s that is the same in all directions. Bonds store W = 1/4 integral of c k(r) s^2 r
+ * over the ball (each bond belongs to two points): A c s^2 m_1 / 2 in 1D, pi t c s^2 m_2 / 2 in 2D, pi c s^2
+ * m_3 in 3D. Elasticity stores E s^2 / 2 in 1D; E s^2 / (1 - nu) = 3/2 E s^2 in plane stress; E s^2 / ((1 +
+ * nu) (1 - 2 nu)) = 8/5 E s^2 in plane strain; 3 E s^2 in 3D, with nu by pg_bond_poisson. */
 double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, double E, double thickness)
 {
     switch (mode) {
@@ -38,10 +37,9 @@ double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, d
     }
 }
 
-/* A bond of length r takes c k(r) s0^2 r / 2 to break. A plane cuts, of the bonds of this length, those
- * whose end lies beyond it: r per unit of area on a line, 2 r * r dr in a plane (the cosine over half a
- * circle is 2), pi r * r^2 dr in space (over half a sphere pi). The product, integrated over r, is the
- * moment below. */
+/* A bond of length r takes the energy c k(r) s0^2 r / 2 to break. Per unit of area, a plane cuts r dr bonds
+ * of this length in 1D, 2 r * r dr in 2D (integral of the cosine over half a circle: 2), pi r * r^2 dr in 3D
+ * (over half a sphere: pi). The product, integrated over r, gives the moments below. */
 double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness,
                                 double c, double s0)
 {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Neighbours of every point: on a lattice by the stencil, else by a search made symmetric; and what the bonds
- * of a point are. */
+ * Neighbours of every point: on a lattice by the stencil, else by a search that is made symmetric; vectors,
+ * weights and partial volumes of the bonds of a point. */
 #include "sums_private.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Position of an item in an ascending list, by halving it; n: it is not there. */
+/* Returns the index of an item in an ascending list, by bisection; n: it is not there. */
 static size_t find (const int *list, size_t n, int item)
 {
     size_t a = 0, b = n;
@@ -20,8 +20,8 @@ static size_t find (const int *list, size_t n, int item)
 }
 
 /* ---- on a lattice -------------------------------------------------------------------------------------- */
-/* The point at a site plus an offset (3 whole numbers), -1 beyond the box of sites or where there is
- * none. */
+/* Returns the point at a site plus an offset (3 numbers of steps); -1: beyond the box of sites, or no point
+ * there. */
 int pg_sums_neighbour (const pg_sites *s, int site, const int *offset)
 {
     int x = site % s->count[0] + offset[0], rest = site / s->count[0], y = rest % s->count[1] + offset[1],
@@ -32,9 +32,9 @@ int pg_sums_neighbour (const pg_sites *s, int site, const int *offset)
 
 typedef struct {
     const pg_sums *sums;
-    int   packed;                                      /* every site has a point */
-    int   reach[3];                                    /* largest offsets */
-    long *jump;                                        /* of each bond, in sites */
+    int   packed;                                      /* 1: every site has a point */
+    int   reach[3];                                    /* largest offsets of bonds, in steps */
+    long *jump;                                        /* difference of site numbers of each bond */
     pg_family *out;
 } walk;
 
@@ -48,9 +48,9 @@ static int inside (const walk *w, int site)
     return all;
 }
 
-/* Neighbours of point i, written to node unless that is NULL; returns how many. Inside the box a
- * neighbour is `jump` sites away without further questions; near its faces each offset is tested. Where
- * points are numbered as sites are, the list ascends by itself. */
+/* Writes the neighbours of point i to node unless that is NULL; returns how many. Inside the box of sites a
+ * neighbour is `jump` sites away; near its faces each offset is checked. If points are numbered as sites are,
+ * the list ascends by itself. */
 static size_t visit (const walk *w, size_t i, int *node)
 {
     const pg_sites *s = &w->sums->sites;
@@ -69,7 +69,8 @@ static size_t visit (const walk *w, size_t i, int *node)
     return n;
 }
 
-/* Lengths of the lists of some points, each at start[i + 1]: their sums become the starts. */
+/* Counts the neighbours of points first .. last - 1 into start[i + 1], from which the starts of lists
+ * follow. */
 static void count_points (void *context, size_t first, size_t last, int thread)
 {
     const walk *w = context;
@@ -77,8 +78,8 @@ static void count_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) w->out->start[i + 1] = visit (w, i, NULL);
 }
 
-/* The lists themselves. Threads write to parts of node that do not overlap, so that the result does not
- * depend on how many there are. */
+/* Writes the lists of points first .. last - 1. Threads write to parts of node that do not overlap, so that
+ * the result does not depend on their number. */
 static void fill_points (void *context, size_t first, size_t last, int thread)
 {
     const walk *w = context;
@@ -86,7 +87,7 @@ static void fill_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) visit (w, i, w->out->node + w->out->start[i]);
 }
 
-/* On a lattice: counted first, then filled, both by threads */
+/* Finds the families on a lattice: counts first, then fills, both by threads. */
 static pg_status by_stencil (pg_family *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -114,7 +115,7 @@ done:
 }
 
 /* ---- without a lattice --------------------------------------------------------------------------------- */
-/* Distance of two points, m. */
+/* Returns the distance of two points, m. */
 static double distance (const pg_cloud *cloud, size_t i, size_t j)
 {
     double r2 = 0;
@@ -125,10 +126,9 @@ static double distance (const pg_cloud *cloud, size_t i, size_t j)
     return sqrt (r2);
 }
 
-/* Length r (m), partial volume beta and weight k beta of the bond of two points. In a graded cloud the
- * horizon is that of the mean of both local spacings (ratio: local spacing over h), and the weight falls
- * with ratio^(dim + 1), so that a whole family always sums up to the same moment. beta 0: there is no
- * bond. */
+/* Length r (m), partial volume beta and weight k beta of the bond between two points; beta 0: there is no
+ * bond. In a graded cloud the horizon is that of the mean of both local spacings (ratio: local spacing over
+ * h), and the weight falls with ratio^(dim + 1), so that the sum over a whole family is always the same. */
 sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j)
 {
     sums_bond b = {.r = distance (cloud, i, j)};
@@ -142,9 +142,9 @@ sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, 
     return b;
 }
 
-/* Pairs (i, j) with j within its own reach of i, both ways round: in a graded cloud one end may reach the
- * other and not be reached. node NULL: counts into next[i + 1]; else writes at next[i]. Points that
- * coincide are a fault, as their bond has no direction. */
+/* Adds all bonds (i, j) of `near` in both directions: in a graded cloud j may be in the list of i and i not
+ * in that of j. node NULL: counts into next[i + 1]; else writes at next[i]. Points that coincide are an
+ * error, as their bond has no direction. */
 static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *next, int *node)
 {
     pg_status status = PG_OK;
@@ -179,7 +179,7 @@ done:
     return status;
 }
 
-/* Drops neighbours that a point does not see. */
+/* Drops neighbours from which a slot, gap or corner separates a point, and counts them. */
 static pg_status sift (pg_family *f, const pg_sums *sums, size_t *dropped)
 {
     pg_status status = PG_OK;
@@ -194,8 +194,8 @@ done:
     return status;
 }
 
-/* Without a lattice: pairs within the larger horizon of both ends, both ways round. Partial volumes count
- * cells that the horizon only cuts, so that the search goes half a spacing farther then. */
+/* Finds the families without a lattice: pairs of points in both directions. Partial volumes include cells
+ * that the horizon only cuts, so that the search then goes half a spacing farther. */
 static pg_status by_search (pg_family *out, const pg_sums *sums, size_t *dropped)
 {
     pg_status status = PG_OK;
@@ -222,7 +222,7 @@ done:
     return status;
 }
 
-/* Bonds of all points, each point's neighbours ascending; without those that something parts. */
+/* Finds the bonds of all points, the neighbours of each ascending; those across slots or gaps are dropped. */
 pg_status pg_sums_family (pg_family *out, const pg_sums *sums, size_t *parted)
 {
     pg_status status = PG_OK;
@@ -237,7 +237,7 @@ done:
 }
 
 /* ---- the bonds of a point ------------------------------------------------------------------------------ */
-/* Bond b of the stencil as entry e of point i's. */
+/* Copies bond b of the stencil to entry e of the bonds of point i; j: its other end. */
 static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, double *xi, double *weight,
                   double *beta)
 {
@@ -248,9 +248,9 @@ static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, d
     if (beta) beta[e] = t->beta[b];
 }
 
-/* Bonds of point i from the stencil. node lists its n neighbours as the family has them, which may be
- * fewer than the stencil has: entries are found by their number, in line where both ascend. Where the family
- * is the whole stencil, and no factor is the point's own, they are copies of the stencil's. */
+/* Copies the bonds of point i from the stencil. node: its n neighbours in the order of the family, which may
+ * be fewer than those of the stencil: entries are searched by the number of the neighbour. If the family is
+ * the whole stencil and there is no surface correction, whole arrays are copied. */
 static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_t i, double *xi,
                            double *weight, double *beta)
 {
@@ -273,9 +273,9 @@ static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_
     }
 }
 
-/* Vector xi (m, dim each), weight k beta (times the surface factor) and partial volume of all bonds of
- * point i, in the order of its family; arrays that are NULL are not wanted. On a lattice the numbers come
- * from the stencil, so that equal bonds have equal bits. */
+/* Vectors xi (m, dim each), weights k beta (times the surface correction) and partial volumes of all bonds of
+ * point i, in the order of its family; arrays that are NULL are left out. On a lattice the numbers come from
+ * the stencil, so that equal bonds have equal bits. */
 void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight,
                     double *beta)
 {

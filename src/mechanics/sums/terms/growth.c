@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a crack consumes that grows bond by bond, over a straight cut through bonds that are all at their
- * limit (calibration.c). It is more: a bond that breaks releases not only what it stores but also what its
- * neighbours give while the gap that it leaves opens, and a crack that has to leave the rows of its lattice
+ * Energy that a crack consumes which grows bond by bond, over that of a straight cut through bonds that are
+ * all at their limit (calibration.c). It is more: when a bond breaks, not only its own energy is released but
+ * also energy of its neighbours while the gap opens, and a crack that has to leave the rows of its lattice
  * breaks bonds beside its path.
  *
  * Measured, not derived: strips clamped along both edges, cracked bond by bond, four directions of growth
@@ -10,25 +10,25 @@
 #include "perigal/sums.h"
 #include <math.h>
 
-/* By horizon in spacings. */
+/* Measured growth (mean, least, most) for a horizon in spacings. alone: bond-based forces. */
 typedef struct { double horizon; pg_growth growth; } row;
 enum { ROWS = 3 };
 static const row alone[ROWS] = { { 3.015, { 1.138, 1.105, 1.182 } },
                                  { 4.015, { 1.086, 1.053, 1.117 } },
                                  { 5.015, { 1.039, 1.023, 1.071 } } };
-/* At a Poisson's ratio of 1/3 in plane stress the same as bonds alone; at 3 spacings the middle of that and
- * of 0.2. */
+/* State-based forces. At Poisson's ratio 1/3 in plane stress they equal bond-based ones; the row at 3
+ * spacings is the mean of that and of Poisson's ratio 0.2. */
 static const row state[ROWS] = { { 3.015, { 1.128, 1.083, 1.187 } },
                                  { 4.015, { 1.08, 1.05, 1.12 } },
                                  { 5.015, { 1.04, 1.02, 1.06 } } };
-/* Poisson's ratio 0.25. */
+/* Micropolar bonds, Poisson's ratio 0.25. */
 static const row beams[ROWS] = { { 3.015, { 1.156, 1.088, 1.274 } },
                                  { 4.015, { 1.068, 1.033, 1.121 } },
                                  { 5.015, { 1.043, 1.011, 1.105 } } };
-/* Beyond the rows by this much the nearest one still serves, in spacings. */
+/* Horizons beyond the rows by up to this, in spacings, take the nearest row. */
 static const double beyond = 0.26;
 
-/* 1: the same at every distance within the horizon. */
+/* Is the kernel the same at every distance within the horizon? */
 static int is_flat (const pg_kernel *kernel)
 {
     static const double place[4] = { 0.05, 0.35, 0.7, 0.999 };

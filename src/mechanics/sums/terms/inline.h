@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what the loops of all instruction sets ask of the compiler. UNROLL: short loops over constants
- * are written out. INLINE: functions become part of the loop that calls them, compiled for the instruction
+ * Private: directives to the compiler in loops of all instruction sets. UNROLL: unrolls short loops of
+ * constant length. INLINE: functions become part of the loop that calls them, compiled for the instruction
  * set TARGET of the including file. */
 #ifndef PG_SUMS_INLINE_H
 #define PG_SUMS_INLINE_H

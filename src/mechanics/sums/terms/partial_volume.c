@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Partial volumes: the share of a neighbour's cell that lies inside the horizon (method.partial_volume;
- * theory A2). `none` and `linear` follow from the distance of the points alone. `overlap` is what a box and
- * a ball about the origin have in common: length and area in closed form, volume by Gauss
- * points over slices between the places where a corner enters. A box that the axes cut through is folded into
- * the first octant before, so that corners are its nearest and its farthest points. Means of a kernel over
- * the common part follow from the volumes V (rho) of all smaller balls: int k dV = -int k' V d rho for k (1)
- * = 0. */
+ * theory A2). `none` and `linear` follow from the distance of the points alone. `overlap` is the intersection
+ * of a box with a ball around the origin: length and area in closed form, volume by Gauss points over slices
+ * between the positions where an edge enters or leaves the ball. A box that contains coordinate planes is
+ * folded into the first octant before, so that its nearest and farthest points are corners. Means of a kernel
+ * over the intersection follow from the volumes V (rho) of the intersections with all smaller balls: int k dV
+ * = -int k' V d rho for k (1) = 0. */
 #include "partial_volume.h"
 #include "sums_private.h"
 #include <math.h>
@@ -19,8 +19,8 @@ static const double weight[POINTS / 2] = { 0.1894506104550685, 0.182603415044923
                                            0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
                                            0.0622535239386479, 0.0271524594117541 };
 
-/* beta by the distance r alone: 1 up to the horizon (none), or falling from 1 to 0 over the width of a
- * cell about it (linear); what is as small as rounding far from the origin is none. */
+/* beta by the distance r (m) alone: 1 up to the horizon (none), or falling from 1 to 0 over the width of a
+ * cell around it (linear); values as small as rounding become 0. */
 double pg_sums_partial (pg_partial partial, double r, double horizon, double width)
 {
     if (partial == PG_PARTIAL_NONE) return r <= horizon * (1 + 1e-9);
@@ -28,11 +28,11 @@ double pg_sums_partial (pg_partial partial, double r, double horizon, double wid
     return beta >= 1 ? 1 : beta > PG_NO_LENGTH ? beta : 0;
 }
 
-/* ---- a box and a ball ---------------------------------------------------------------------------------- */
+/* ---- intersection of a box and a ball ------------------------------------------------------------------ */
 typedef struct { int dim; double low[3], high[3]; } box;          /* 0 <= low < high */
 
-/* Point g of a rule on [a, b] whose points crowd at both ends, where integrands may go as a power of 3/2.
- * Returns the weight. */
+/* Sets *x to point g of a quadrature rule on [a, b] that has more points near both ends, where integrands may
+ * behave as a power of 3/2; returns its weight. */
 static double rule_at (int g, double a, double b, double *x)
 {
     int k = g < POINTS / 2 ? g : g - POINTS / 2;
@@ -50,8 +50,8 @@ static double arc (double R, double x)
     return 0.5 * (x * sqrt (c > 0 ? c : 0) + R * R * asin (fmin (1, x / R)));
 }
 
-/* Area that a rectangle in the first quadrant and the disk of radius R have in common: full height up to
- * where the circle leaves the top edge, the arc from there on. */
+/* Area of the intersection of a rectangle in the first quadrant with the disk of radius R: full height up to
+ * where the circle crosses the top edge, the arc from there on. */
 static double area (const double *low, const double *high, double R)
 {
     if (square (low[0]) + square (low[1]) >= R * R) return 0;
@@ -63,7 +63,7 @@ static double area (const double *low, const double *high, double R)
     return sum + arc (R, last) - arc (R, a) - (last - a) * low[1];
 }
 
-/* Ascending insertion of x into n numbers */
+/* Inserts x into n ascending numbers; returns n + 1. */
 static int insert (double *list, int n, double x)
 {
     int k = n;
@@ -72,8 +72,9 @@ static int insert (double *list, int n, double x)
     return n + 1;
 }
 
-/* Volume that a box in the first octant and a ball have in common: areas of slices along the first axis, by
- * Gauss points between the places where one of the four edges enters or leaves the ball: the area's kinks. */
+/* Volume of the intersection of a box in the first octant with the ball of radius R: areas of slices along
+ * the first axis, by Gauss points between the positions where one of the four edges enters or leaves the
+ * ball, where the area has a kink. */
 static double volume (const box *b, double R)
 {
     double low2 = 0, kink[6], sum = 0;
@@ -97,14 +98,15 @@ static double volume (const box *b, double R)
     return sum;
 }
 
-/* Length, area or volume in common with the ball of radius R about the origin. */
+/* Length, area or volume of the intersection of a box with the ball of radius R around the origin. */
 static double common (const box *b, double R)
 {
     if (b->dim == 1) return fmax (0, fmin (b->high[0], R) - b->low[0]);
     return b->dim == 2 ? area (b->low, b->high, R) : volume (b, R);
 }
 
-/* The cell folded into the first octant; returns the volume of that part. */
+/* Makes b, the cell at offset n folded into the first octant; returns its volume (of the folded part).
+ * nearest, farthest: distances of its corners. */
 static double fold (box *b, int dim, const int *n, const double *step, double *nearest, double *farthest)
 {
     double size = 1, least = 0, most = 0;
@@ -129,8 +131,8 @@ double pg_sums_overlap (int dim, const int *n, const double *step, double radius
     return fmin (1, common (&b, radius) / size);
 }
 
-/* Mean of the kernel over the part of the cell within the ball, times that part's share: -int k' V d rho
- * / cell, between the radii at which corners enter. */
+/* Integral of the kernel over the part of the cell in the ball, over the volume of the cell: -int k' V d rho
+ * / cell, piecewise between the radii at which corners enter. */
 double pg_sums_overlap_mean (int dim, const int *n, const double *step, double radius,
                              const pg_kernel *kernel)
 {
@@ -140,7 +142,7 @@ double pg_sums_overlap_mean (int dim, const int *n, const double *step, double r
     if (nearest >= radius) return 0;
     count = insert (kink, count, nearest);
     count = insert (kink, count, radius);
-    if (radius / 2 > nearest) count = insert (kink, count, radius / 2);              /* the knot of splines */
+    if (radius / 2 > nearest) count = insert (kink, count, radius / 2);          /* spline kernels: a knot */
     for (int c = 1; c < 1 << dim; c++) {
         double d = 0;
         for (int k = 0; k < dim; k++) d += square (c >> k & 1 ? b.high[k] : b.low[k]);

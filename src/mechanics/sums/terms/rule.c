@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a rule of bonds must fulfil, and the median over whole families that calibrations refer to. */
+ * Checks of a rule of bonds, and the median over whole families, to which calibrations refer. */
 #include "sums_private.h"
 #include <math.h>
 
 static const double whole_family = 0.8;                /* of the largest family's volume */
 
-/* What would divide by zero or sum over the wrong dimension is refused before anything is summed. */
+/* Refuses rules that would divide by zero or sum over the wrong dimension, before anything is summed. */
 pg_status pg_sums_check_rule (const pg_sum_rule *rule, int dim)
 {
     pg_status status = PG_OK;
@@ -18,7 +18,7 @@ done:
     return status;
 }
 
-/* Of ranks that share the points each gives those that it owns. */
+/* Ranks that share the points contribute the values of the points that they own. */
 pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volume, const double *value)
 {
     pg_status status = PG_OK;
@@ -38,7 +38,7 @@ pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volu
         pg_sort (all, m, sizeof *all, pg_ascending_numbers);
         *out = m % 2 ? all[m / 2] : 0.5 * (all[m / 2 - 1] + all[m / 2]);
     }
-    PG_TRY (pg_ranks_sum (1, out));                    /* of one rank, which has collected them */
+    PG_TRY (pg_ranks_sum (1, out));                    /* only rank 0 has the values, the others have 0 */
 done:
     pg_free (mine), pg_free (collected);
     return status;

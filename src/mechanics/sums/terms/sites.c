@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points of a cloud are sites of one lattice. Where no lattice is given (points of a file, nodes of a
- * mesh) its steps are the smallest gaps between coordinates. */
+ * Finds out whether the points of a cloud are sites of one lattice. If no lattice is given (points of a file,
+ * nodes of a mesh) its steps are the smallest gaps between coordinates. */
 #include "sums_private.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double off_site = 1e-6;                   /* of a step */
-static const double sparse   = 8;  /* sites per point beyond which a found lattice is none */
+static const double off_site = 1e-6;                   /* largest distance from a site, in steps */
+static const double sparse   = 8;  /* with more sites per point points do not count as a lattice */
 
-/* The box of all points, m. */
+/* Computes the bounding box of all points, m. */
 static void bounds (const pg_cloud *cloud, double *low, double *high)
 {
     for (int k = 0; k < cloud->dim; k++) {
@@ -22,7 +22,7 @@ static void bounds (const pg_cloud *cloud, double *low, double *high)
     }
 }
 
-/* Do all points have the spacing h of the cloud? Graded points are no lattice, whatever their places. */
+/* Do all points have the spacing h of the cloud? Graded points are no lattice, whatever their positions. */
 static int alike (const pg_cloud *cloud)
 {
     for (size_t i = 0; cloud->size && i < cloud->n; i++)
@@ -30,8 +30,8 @@ static int alike (const pg_cloud *cloud)
     return 1;
 }
 
-/* Coordinate k of all points of the body, ascending; ranks that share it leave that to one of them, the
- * others have none. */
+/* Lists coordinate k of all points of the body, ascending, m; where ranks share the body on rank 0, elsewhere
+ * none. */
 static pg_status coordinates (const pg_cloud *cloud, int k, size_t *n, double **x)
 {
     pg_status status = PG_OK;
@@ -49,9 +49,9 @@ done:
     return status;
 }
 
-/* Steps of a lattice from the points alone: the smallest gap between two coordinates along each axis that
- * is no rounding (1e-3 h). found = 0: an axis without any gap, or a box with more than 8 sites a point:
- * those are irregular points that happen to have small gaps. */
+/* Finds the steps of a lattice from the points: the smallest gap between two coordinates along each axis that
+ * is not rounding (1e-3 h). found = 0: an axis has no gap, or the box has more than 8 sites per point:
+ * irregular points that happen to have small gaps. */
 static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
 {
     pg_status status = PG_OK;
@@ -69,7 +69,7 @@ static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
             if (x[i] - x[i - 1] > 1e-3 * cloud->h) gap = fmin (gap, x[i] - x[i - 1]);
         points = (double) n;
         if (!isfinite (gap) || !isfinite (length)) all = INFINITY;
-        else step[k] = length / floor (length / gap + 0.5);  /* gaps are rounded, their sum is less so */
+        else step[k] = length / floor (length / gap + 0.5);  /* the length has smaller relative errors */
         all *= length / step[k] + 1;
     }
     is_one = n > 0 && all < sparse * points + 64;
@@ -81,8 +81,8 @@ done:
     return status;
 }
 
-/* Sites of the box about all points, and its corner; 0: too many to number, or no box. Axes that the body
- * lacks have one site. */
+/* Sets the numbers of sites of the box of all points, and its lowest corner (m); returns the number of sites,
+ * 0: too many, or no valid steps. Axes beyond the dimension have one site. */
 static size_t count_sites (pg_sites *s, const pg_cloud *cloud, const double *step, double *low)
 {
     double high[3], all = 1;
@@ -96,7 +96,8 @@ static size_t count_sites (pg_sites *s, const pg_cloud *cloud, const double *ste
     return (size_t) all;
 }
 
-/* The site of a point, x fastest; -1: it is off all of them by more than a millionth of a step. */
+/* Returns the number of the site of a point, x fastest; -1: it is off all sites by more than a millionth of a
+ * step. */
 static int site_of (const pg_sites *s, const double *x, const double *low)
 {
     int site = 0;
@@ -108,7 +109,8 @@ static int site_of (const pg_sites *s, const double *x, const double *low)
     return site;
 }
 
-/* 0: a point is on no site, or on one that is taken. */
+/* Sets the site of each point and the point of each site; returns 0 if a point is on no site, or two are on
+ * one. */
 static int put_on_sites (pg_sites *out, const pg_cloud *cloud, size_t all, const double *low)
 {
     for (size_t s = 0; s < all; s++) out->point[s] = -1;
@@ -120,7 +122,7 @@ static int put_on_sites (pg_sites *out, const pg_cloud *cloud, size_t all, const
     return 1;
 }
 
-/* What is so on any of the ranks that share the points is so on all. */
+/* Sets *yes on all ranks that share the points if it is set on any. */
 static pg_status any_rank (const pg_cloud *cloud, int *yes)
 {
     pg_status status = PG_OK;
@@ -131,8 +133,8 @@ done:
     return status;
 }
 
-/* The site of every point and the point of every site, -1 for none. Any point that is on no site, or on
- * one that is taken, makes the whole cloud irregular: *out is empty then, which is no failure. */
+/* Finds the site of every point and the point of every site, -1 for none. If any point is on no site, or two
+ * are on one, the whole cloud counts as irregular: *out is empty then, which is no error. */
 pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -153,14 +155,14 @@ pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice
     if (!other) PG_ALLOC (out->site, cloud->n);
     if (!other) PG_ALLOC (out->point, all);
     if (!other) other = !put_on_sites (out, cloud, all, low);
-    PG_TRY (any_rank (cloud, &other));                 /* points are a lattice together or not at all */
+    PG_TRY (any_rank (cloud, &other));                 /* points of all ranks must be sites of the lattice */
     fits = !other;
 done:
     if (!fits || status != PG_OK) pg_sites_clear (out);
     return status;
 }
 
-/* May be called for sites of zeros. */
+/* Frees the arrays; *sites may be all zeros. */
 void pg_sites_clear (pg_sites *sites)
 {
     pg_free (sites->site);

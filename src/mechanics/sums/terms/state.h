@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * state.h: what the loops of state-based theory share (private; theory B6). Of point i, with w = k beta / r
- * and the bonds that count: q = sum w r^2 V, factor = A d / q^2, beta = B / q; all 0 where no bond counts. */
+ * state.h: constants that all loops of state-based theory need (private; theory B6). For a point, with w = k
+ * beta / r and the bonds that count: q = sum w r^2 V, factor = A d / q^2, beta = B / q; all 0 if no bond
+ * counts. */
 #ifndef PERIGAL_SUMS_STATE_H
 #define PERIGAL_SUMS_STATE_H
 #include "bond_loop.h"
@@ -15,6 +16,6 @@ static inline double state_beta (const pg_bond_loop_setting *s, size_t i, double
     return q > 0 ? s->deviation[i] / q : 0;
 }
 
-/* NULL: theory and rule go together; else why not. */
+/* Returns why state-based sums cannot have this rule; NULL: they can. */
 const char *pg_state_loop_refusal (const pg_bond_loop_setting *setting);
 #endif

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bonds of a point inside a lattice. All is computed for offsets with sizes of components sorted (along
- * axes of equal steps) and looked up for the rest, so that mirrored and permuted offsets have the same
- * bits. */
+ * The bonds of a point inside a lattice. Values are computed for canonical offsets, whose components are not
+ * negative and sorted (along axes of equal steps), and looked up for the others, so that mirrored and
+ * permuted offsets have the same bits. */
 #include "sums_private.h"
 #include "partial_volume.h"
 #include <math.h>
 #include <string.h>
 
-/* A horizon of so many points is a mistake of units, not a scene. */
+/* Most points within a horizon: more are taken for a mistake of units. */
 static const double most_offsets = 2e8;
 
-/* All offsets of equal sizes of components: length (m), partial volume, weight k beta. */
+/* Values of all offsets with the same canonical form: length (m), partial volume, weight k beta. */
 typedef struct { double r, beta, weight; } shell;
 
 typedef struct {
     const pg_sum_rule *rule;
     int    dim, reach[3];
     double step[3];                                    /* lattice steps, m; those equal to 1e-9 made equal */
-    shell *of;  /* by sizes of components, x fastest; beta 0: no bond */
+    shell *of;  /* by absolute values of components, x fastest; beta 0: no bond */
 } shells;
 
-/* A kernel at one place, q = r / horizon. */
+/* Returns the kernel at q = r / horizon. */
 static double value (const pg_kernel *kernel, double q)
 {
     double w;
@@ -28,8 +28,9 @@ static double value (const pg_kernel *kernel, double q)
     return w;
 }
 
-/* The kernel at a bond's length. Open kernels end before the horizon itself; bonds that only their cell's
- * part brings in (partial volumes) have q > 1 and the value that the kernel has there. */
+/* Kernel at the length r of a bond. Kernels that vanish at the horizon have no bond there; bonds to cells
+ * that lie only partly in the horizon (partial volumes) may have q > 1, where the kernel's formula is
+ * continued. */
 double pg_sums_kernel (const pg_sum_rule *rule, double r, double horizon)
 {
     double q = r / horizon;
@@ -37,10 +38,10 @@ double pg_sums_kernel (const pg_sum_rule *rule, double r, double horizon)
     return value (rule->kernel, rule->partial == PG_PARTIAL_NONE ? fmin (q, 1) : q);
 }
 
-/* Length, partial volume and weight of the offset n (sizes of its components, in canonical order).
- * Partial volumes by `overlap` are exact intersections of the cell with the ball about the point; the
- * others go by distance, with the width of a cell along the bond. Where the kernel ends at the horizon,
- * overlap takes its mean over the part of the cell instead of its value at the centre. */
+/* Length, partial volume and weight of the canonical offset n. Partial volumes by `overlap` are exact
+ * intersections of the cell with the ball around the point; the others depend on the distance and on the
+ * width of a cell along the bond. If the kernel vanishes at the horizon, overlap takes its mean over the part
+ * of the cell instead of its value at the centre. */
 static shell shell_at (const shells *s, const int *n)
 {
     const pg_sum_rule *rule = s->rule;
@@ -69,15 +70,15 @@ static shell shell_at (const shells *s, const int *n)
     return out;
 }
 
-/* Index in the table of shells of an offset with components of sizes n, x fastest. */
+/* Returns the index in the table of shells of an offset with absolute components n, x fastest. */
 static size_t place (const shells *s, const int *n)
 {
     return (size_t) n[0]
            + (size_t) (s->reach[0] + 1) * ((size_t) n[1] + (size_t) (s->reach[1] + 1) * (size_t) n[2]);
 }
 
-/* Sizes of components, descending along axes of equal steps: all offsets of one shell have the same
- * canonical form, and so the same bits. */
+/* Makes the canonical form c of an offset n: absolute components, descending along axes of equal steps. All
+ * offsets of one shell have the same form, and so the same bits. */
 static void canonical (const shells *s, const int *n, int *c)
 {
     for (int k = 0; k < 3; k++) c[k] = n[k] < 0 ? -n[k] : n[k];
@@ -86,8 +87,8 @@ static void canonical (const shells *s, const int *n, int *c)
             if (s->step[a] == s->step[b] && c[a] < c[b]) { int keep = c[a]; c[a] = c[b]; c[b] = keep; }
 }
 
-/* How far a bond may reach along each axis, in steps; steps that are equal to rounding are made so in all
- * bits. Partial volumes reach half a cell farther. */
+/* Sets how far a bond may reach along each axis, in steps (with partial volumes half a cell farther); steps
+ * that are equal but for rounding are made equal. */
 static pg_status fit (shells *s, const pg_sum_rule *rule, int dim, const double *step)
 {
     pg_status status = PG_OK;
@@ -112,8 +113,8 @@ done:
     return status;
 }
 
-/* Computes each canonical offset once; the rest of the table is never read. What is no number is no reason
- * to leave a bond out: it is a fault. */
+/* Computes the shell of each canonical offset; the rest of the table is never read. Values that are not
+ * finite are an error. */
 static pg_status fill (shells *s)
 {
     pg_status status = PG_OK;
@@ -138,7 +139,7 @@ done:
     return status;
 }
 
-/* All offsets with a bond, in the order z, y, x; out NULL: only counted. */
+/* Lists all offsets with a bond, sorted by z, y, x; out NULL: only counts. Returns their number. */
 static size_t list (const shells *s, pg_stencil *out)
 {
     size_t b = 0;
@@ -160,9 +161,9 @@ static size_t list (const shells *s, pg_stencil *out)
     return b;
 }
 
-/* All bonds of a point inside a lattice, in the order z, y, x of their offsets: offset (whole steps), xi
- * (m), length r, partial volume, weight. The order is that of site numbers, by which families of ordered
- * points need no sort. */
+/* Makes all bonds of a point inside a lattice, sorted by z, y, x of their offsets: offset (steps), xi (m),
+ * length r, partial volume, weight. The order is that of site numbers, so that families of ordered points
+ * need no sort. */
 pg_status pg_stencil_build (pg_stencil *out, const pg_sum_rule *rule, int dim, const double *step)
 {
     pg_status status = PG_OK;
@@ -193,7 +194,7 @@ done:
     return status;
 }
 
-/* May be called for a stencil of zeros. */
+/* Frees the arrays; *stencil may be all zeros. */
 void pg_stencil_clear (pg_stencil *stencil)
 {
     pg_free (stencil->offset);

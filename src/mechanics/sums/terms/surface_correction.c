@@ -12,7 +12,8 @@ double pg_sums_surface (const pg_sums *sums, size_t i, size_t j)
     return sums->rule.surface == PG_SURFACE_VOLUME ? 2 / (v[i] + v[j]) : 1 / sqrt (v[i] * v[j]);
 }
 
-/* v of every point of a lattice in which neighbours may be parted, by the bonds of its family. */
+/* Computes v of every point of a lattice by the bonds of its family, for bodies in which slots or gaps may
+ * separate neighbours. */
 static pg_status by_families (pg_sums *s, double whole)
 {
     pg_status status = PG_OK;
@@ -34,8 +35,8 @@ done:
     return status;
 }
 
-/* v of every point of a lattice, from the shares beta of its stencil. Points on no lattice: from_cloud in
- * sums.c, which sums their bonds anyway. */
+/* Computes v of every point of a lattice, from the partial volumes beta of the stencil. (For points without a
+ * lattice from_cloud in sums.c does.) */
 pg_status pg_sums_family_volumes (pg_sums *s)
 {
     pg_status status = PG_OK;
