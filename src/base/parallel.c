@@ -41,7 +41,7 @@ typedef struct {
 static struct {
     helper helper[MAX_THREADS];                        /* entries 1 .. started - 1 are in use */
     int    started;                                    /* threads there are, the caller's among them */
-    int    looks;                                      /* at a variable before going to sleep; 0: one core */
+    int    looks;                                      /* how often to look before sleep; 0: one core */
     pthread_once_t  once;
     pthread_mutex_t gate;                              /* held during a loop */
     pthread_mutex_t end_lock;

@@ -6,7 +6,7 @@
  * gathered row by row: the row of node I collects from all points that have I (by the inverse lists), in the
  * same order every time. Hence no two threads write to the same place, the sums do not depend on the number
  * of threads, and a few rows can be redone after bonds broke with the same bits as in a new assembly. The
- * price is that the blocks of a point are asked for row by row. */
+ * price is that the blocks of a point are computed row by row. */
 #include "perigal/linalg.h"
 #include "wide.h"
 #include <stdint.h>

@@ -27,7 +27,7 @@ done:
     return status;
 }
 
-/* A pivot that is exactly zero is the only failure: how good the factors are the residual tells. */
+/* Only a pivot that is exactly zero counts as failure: the accuracy of the factors shows in the residual. */
 int pg_dense_factor (size_t n, double *A, size_t lda, int *pivot)
 {
     int order = (int) n, width = (int) lda, info = 0;

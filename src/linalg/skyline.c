@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The name of an envelope factorisation that small systems once had: the usual factorisation under another
- * name. */
+ * The entry "skyline", once an envelope factorisation for small systems: now another name of the usual
+ * factorisation. */
 #include "perigal/linalg.h"
 
 static const pg_linear_type *usual (void) { return pg_linear_first (1, 1); }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loads BLAS, CHOLMOD and UMFPACK when they are needed and fills the tables of their functions. Runs that
- * factor no matrix never load them; those that do have set before how many threads these libraries may start,
- * which they read from their environment as they are loaded. */
+ * factor no matrix never load them. How many threads these libraries may start is set before, as they read it
+ * from their environment when they are loaded. */
 #include "suitesparse.h"
 #include <stddef.h>
 #include <stdlib.h>

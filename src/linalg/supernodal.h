@@ -5,7 +5,8 @@
 #include "suitesparse.h"
 #include "perigal/linalg.h"
 
-/* What is found once for a factor, and workspaces. A position is the place of an unknown in its order. */
+/* What is found once for a factor, and workspaces. Position: index of an unknown in the order of the
+ * factor. */
 typedef struct {
     long   *place;                                     /* position of each unknown (n) */
     long   *parent;                                    /* parent of each supernode; -1: none */

@@ -51,7 +51,7 @@ struct pg_element_preconditioner {
     const pg_linear_type *direct;
     void   *factor;
     double *force, *along, *part;
-    /* residual without the forces along W (ndof) */
+    /* Residual less its part along W, the stiff springs (ndof). */
     double *rest;
     /* Vectors of the recurrence (unknowns of the nodes), and the vectors before and after V (unknowns of
      * Q). */

@@ -84,7 +84,7 @@ typedef struct {
     double *inverse;
     /* Upper bound of the eigenvalues of D^-1 A. */
     double  top;
-    level_grid grid;                                   /* of the coarse functions */
+    level_grid grid;                                   /* grid of the coarse functions */
     level_functions coarse;
     /* Vectors of the cycle (ndof): right-hand side and solution (on the finest level the caller's),
      * residual, step, A times step. */

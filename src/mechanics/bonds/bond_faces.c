@@ -159,7 +159,7 @@ static const double *direction (const pg_face_pieces *f, size_t q, size_t a)
     return a ? f->tangent + ((f->dim - 1) * q + a - 1) * f->dim : f->normal + f->dim * q;
 }
 
-/* Computes e_a and p_a (m) of a crossing bond. */
+/* Components e_a of the direction of a crossing bond along normal and tangents, and p_a = xi_n e_a, m. */
 static void parts (const pg_face_pieces *f, const crossing *c, double *e, double *p)
 {
     double rr = 0;

@@ -89,7 +89,7 @@ struct bond_force {
     pg_operator op;
     pg_sparse K;                                       /* stiffness, N/m; row NULL until asked for */
     stale_columns stale;
-    double   *diagonal;  unsigned long diagonal_of;    /* of K, N/m (ndof); its revision, 0: not made yet */
+    double   *diagonal;  unsigned long diagonal_of;    /* diagonal of K, N/m (ndof); at which revision */
     unsigned long revision;                            /* changes whenever bonds break */
     /* Blocks of a point with all its bonds, its own block last; NULL: they are not the same for all points.
      * searched: 1: this has been found out. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Points that lose all their bonds for good ("die") when their energy reaches its limit (theory B2). The
- * alive mask of the bonds is the only memory: a dead point has neither energy nor bonds. The energy that
+ * alive mask of the bonds is the only memory: a point that died has neither energy nor bonds. The energy that
  * decides is always the plain sum over the point's own bonds: it does not depend on how forces are summed,
  * nor on which points are checked (pairwise_tiles.c leaves out those that cannot have reached their limit).
  * */

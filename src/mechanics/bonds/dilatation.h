@@ -12,7 +12,7 @@ typedef struct dilatation_rows dilatation_rows;        /* dilatation_rows.c */
 typedef struct dilatation {
     /* constants A and B of each point, Pa; beside micropolar bonds B is 0 (n) */
     double *A, *B;
-    double *q;  unsigned long weighed;                 /* weighted volumes, m^5 (n), made at that revision */
+    double *q;  unsigned long weighed;                 /* weighted volumes, m^4 (n), made at that revision */
     /* C / q, C = B + d max (A, 0): pair forces along bonds with the constant C_i / q_i + C_j / q_j are at
      * least as stiff as these forces (n) */
     double *stiff;

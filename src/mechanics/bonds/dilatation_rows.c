@@ -12,9 +12,9 @@
 enum { MOST = 36, NEAR = 40 };                         /* most numbers of a block; most nearest points */
 struct dilatation_rows {
     size_t *start;  int *node;                         /* nearest points of each point (n + 1; start[n]) */
-    double *inverse;                                   /* of sum V xi x xi over them, 1/m^5 (n x dim x dim) */
+    double *inverse;  /* inverse of sum V xi x xi over the nearest points, 1/m^5 (n x dim x dim) */
     double *stiff;  /* C / q, or B / q where theta is taken from the nearest points (n) */
-    /* 1: theta is taken from the nearest points; 1: the row is the one that most points share (n) */
+    /* narrow: 1: theta is taken from the nearest points; uniform: 1: the row is the shared one (n) */
     unsigned char *narrow, *uniform;
     unsigned char *intact;                             /* 1: no bond of the point is broken (n) */
     double *whole;                                     /* the shared row of blocks; NULL: there is none */

@@ -26,6 +26,7 @@ double    pairwise_energy_at (const bond_force *b, size_t i, int thread, const d
 pg_status pairwise_tiles_look    (bond_force *b, const double *d, size_t *dying);
 void      pairwise_tiles_forget  (bond_force *b);
 void      pairwise_tiles_free    (pairwise_tiles **tiles);
-/* pg_method.read: makes the sums, and checks that materials have the one Poisson's ratio of these forces. */
+/* pg_method.read: makes the sums, and sets the Poisson's ratio of materials to the only one of these
+ * forces. */
 pg_status pairwise_read   (pg_problem *problem, const pg_scene *scene);
 #endif

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double margin = 1e-6;                     /* share of the limit, far above rounding of loops */
+static const double margin = 1e-6;                     /* relative, on limits: far above rounding of loops */
 /* Edge of a tile in spacings; how many points in a loop cost as much as one by itself; lanes of box_run. */
 enum { EDGE = 8, DEAR = 3, LANES = 8 };
 

@@ -69,7 +69,7 @@ static double ratio (const pg_criterion_setting *s)
     if (!kernel) return 0;
     if (s->state) return 1 / pg_state_fracture_energy (s, 1);
     int n = order[s->mode];
-    double tough = s->toughness > 0 ? s->toughness : 1;        /* of a lattice (theory A2) */
+    double tough = s->toughness > 0 ? s->toughness : 1;  /* energy of a lattice over theory (theory A2) */
     return a[s->mode] * pg_kernel_moment (kernel, n)
            / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus * tough);
 }

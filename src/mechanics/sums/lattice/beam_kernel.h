@@ -188,7 +188,7 @@ INLINE void beam_over_loop (const pg_block_job *job, size_t first, size_t last, 
 /* Twice the energy of the bonds of every point, J: kn s^2 r^2 + kt gamma^2 r^2 + kb turn^2, written with
  * g = (kn - kt) / r^2 as kt w.w + g (xi.w)^2 + kb turn.turn. Each bond is summed from both ends, so that the
  * sum over all blocks is four times the energy of the body. job->energy: sum of a block, in the order of
- * its lanes; job->energies, where it is wanted: that of each point. */
+ * its lanes; job->energies: that of each point, or NULL. */
 INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int turns = dim == 2 ? 1 : 3;

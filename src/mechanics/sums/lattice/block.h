@@ -69,7 +69,7 @@ typedef struct {
     int             single;                            /* 1: any one limit breaks a bond; 0: all together */
     uint32_t       *over;                              /* laid out as alive: 1: the bond is at its limit */
     const pg_fold  *fold;                              /* NULL: not folded */
-    double          volume;                            /* of a lattice cell, m^3 */
+    double          volume;                            /* volume of a lattice cell, m^3 */
 } pg_block_job;
 
 /* A loop over the blocks first .. last - 1. */

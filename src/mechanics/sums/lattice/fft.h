@@ -42,7 +42,7 @@ typedef struct {
      * 1][FFT_WIDE]. */
     double *kernel;
     double *block, *field[FFT_MOST];                   /* memory of the fields; each complex [n2][T1][C] */
-    double *workspaces;  size_t workspace;             /* of all threads; numbers of one thread */
+    double *workspaces;  size_t workspace;             /* memory of all threads; doubles of one */
     long    forward, back;                             /* transforms of the box so far */
 } fft;
 

@@ -28,9 +28,9 @@ typedef struct {
     fft     f;
     int     dim, pairs, thirds;                        /* pairs, triples of axes (thirds: 1, 4, 10) */
     size_t  nx, rows, width, places;  /* sites of a row; rows; sites of its blocks; padded places */
-    double *K;  /* of the stencil's bonds: K_ab, N/m; K_ab xi_c, N (n x (pairs + thirds)) */
+    double *K;  /* K_ab (N/m) and K_ab xi_c (N) of each bond of the stencil (n x (pairs + thirds)) */
     double *chi;                                       /* weights of points (places) */
-    double *D;                                         /* N/m (pairs x rows x width) */
+    double *D;                                         /* D_ab at each site, N/m (pairs x rows x width) */
     double  whole[FFT_MOST];                           /* D of a point with a whole family of weight 1, N/m */
     unsigned char *cut;  /* 1: a bond in the block is broken between points that have bonds left */
     unsigned char *seen, *seen_block;                  /* marks while bonds break (points, blocks) */

@@ -26,8 +26,8 @@ typedef struct {
     double *S[3], *C[6];
     double *chi, *G[3], *D[6], *H[6];                  /* padded (places) */
     int    *bits;                                      /* intact bonds of each block at the start */
-    int    *cut, ncut;                                 /* blocks that have lost some, ascending */
-    unsigned char *is_cut;                             /* 1: the block has lost some (blocks) */
+    int    *cut, ncut;                                 /* blocks that have lost bonds, ascending */
+    unsigned char *is_cut;                             /* 1: the block has lost bonds (blocks) */
     int     stale;                                     /* 1: H is out of date, as beta has changed */
     double  centre[3];                                 /* mean displacement, which is subtracted, m */
     transformer bound;                                 /* makes no sums: data for fft_bound.c */

@@ -8,7 +8,7 @@
 
 typedef struct {
     stencil base;                                      /* first, as loops over blocks take a stencil */
-    double *q;                                         /* weighted volumes: m^2 times volume times w (n) */
+    double *q;                                         /* weighted volumes sum w r^2 V, m^4 (n) */
     double *factor, *beta, *alpha;                     /* as in pg_block_job (places) */
 } state;
 

@@ -7,7 +7,7 @@
 typedef struct {
     bond_list *list;
     size_t  most;                                      /* bonds of the largest family */
-    double *xi, *weight;  /* of one family, for each thread (threads x most x dim; threads x most) */
+    double *xi, *weight;  /* bonds of one family, for each thread (threads x most x dim; threads x most) */
 } filler;
 
 /* Returns how the bond from point i to point j is stored: 0 shared, at i; 1 at both; -1 shared, at j. Bonds

@@ -15,7 +15,8 @@
         double *p_ = PLACE (sum, o, k); \
         _mm256_store_pd (p_, _mm256_sub_pd (_mm256_load_pd (p_), v)); \
     } while (0)
-/* Subtracts lane after lane, as two lanes may have the same end (1D). */
+/* Subtracts forces in 1D from the sums of the other ends, lane after lane, as two lanes may have the same
+ * end. */
 #define GIVE1(sum, o, f) \
     do { \
         for (int k_ = 0; k_ < WIDTH; k_++) *PLACE (sum, o, k_) -= (f)[0][k_]; \

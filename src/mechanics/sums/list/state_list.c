@@ -142,7 +142,7 @@ static void bytes (const void *self, double *per_bond, double *per_point)
     const double bonds = (double) s->list.family->start[s->list.n];
     pg_list_bytes (self, per_bond, per_point);
     *per_bond = bonds > 0 ? 2 * slots * (LIST_LANES * (sizeof (uint32_t) + sizeof (double)) + 1) / bonds : 0;
-    *per_point += 6 * sizeof (double);                 /* alpha, factor twice; alpha and beta in records */
+    *per_point += 6 * sizeof (double);                 /* alpha, factor, twice; alpha, beta of records */
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */

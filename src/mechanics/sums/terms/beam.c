@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds: moduli from the energy of uniform strain, calibration on the points at hand, the energy
+ * Micropolar bonds: moduli from the energy of uniform strain, calibration on a lattice or cloud, the energy
  * of a straight cut, and the stiffness of one bond (Chen 2022, corrected in theory G1, G2, G5). */
 #include "beam.h"
 #include "sums_private.h"

@@ -34,7 +34,8 @@ typedef struct {
     void      (*counts) (const void *self, pg_bond_loop_counts *out);        /* NULL: none */
     int apart;                                         /* 1: sums differences of u bond by bond */
     int plain;                                         /* 1: its name has no instruction set */
-    pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);  /* state-based only */
+    /* pg_bond_loop_dilatation; NULL: the theory has no dilatation */
+    pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);
 } pg_bond_loop_kind;
 extern const pg_bond_loop_kind pg_bond_loop_stencil, pg_bond_loop_list, pg_bond_loop_fft,
     pg_bond_loop_state_stencil, pg_bond_loop_state_list, pg_bond_loop_state_fft, pg_bond_loop_beam_stencil,

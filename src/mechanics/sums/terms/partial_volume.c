@@ -29,7 +29,7 @@ double pg_sums_partial (pg_partial partial, double r, double horizon, double wid
 }
 
 /* ---- intersection of a box and a ball ------------------------------------------------------------------ */
-typedef struct { int dim; double low[3], high[3]; } box;          /* 0 <= low < high */
+typedef struct { int dim; double low[3], high[3]; } box;          /* in the first octant: 0 <= low < high */
 
 /* Sets *x to point g of a quadrature rule on [a, b] that has more points near both ends, where integrands may
  * behave as a power of 3/2; returns its weight. */
@@ -58,7 +58,7 @@ static double area (const double *low, const double *high, double R)
     if (square (high[0]) + square (high[1]) <= R * R) return (high[0] - low[0]) * (high[1] - low[1]);
     /* up to here the top edge is inside */
     double full = high[1] < R ? sqrt ((R - high[1]) * (R + high[1])) : 0;
-    double last = fmin (high[0], sqrt ((R - low[1]) * (R + low[1])));  /* from here on all is outside */
+    double last = fmin (high[0], sqrt ((R - low[1]) * (R + low[1])));  /* beyond it, all is outside */
     double a = fmin (fmax (low[0], full), last), sum = (a - low[0]) * (high[1] - low[1]);
     return sum + arc (R, last) - arc (R, a) - (last - a) * low[1];
 }

@@ -3,7 +3,7 @@
 #include "sums_private.h"
 #include <math.h>
 
-static const double whole_family = 0.8;                /* of the largest family's volume */
+static const double whole_family = 0.8;                /* least volume of a whole family over the largest */
 
 /* Refuses rules that would divide by zero or sum over the wrong dimension, before anything is summed. */
 pg_status pg_sums_check_rule (const pg_sum_rule *rule, int dim)
