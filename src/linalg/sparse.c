@@ -73,7 +73,7 @@ pg_operator pg_sparse_operator (pg_sparse *A) { return (pg_operator) { A->ncol, 
  * that share a row with it. R is T by rows: */
 typedef struct { long *start, *row; double *value; } rows_view;
 
-/* The transpose of the storage: entries of row i are start[i] .. start[i + 1] - 1, columns ascending. */
+/* Makes R, T stored by rows: entries of row i are start[i] .. start[i + 1] - 1, columns ascending. */
 static pg_status by_rows (rows_view *R, const pg_sparse *T)
 {
     pg_status status = PG_OK;

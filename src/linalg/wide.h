@@ -7,7 +7,7 @@
 #define PG_LINALG_WIDE_H
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
 typedef float  four_floats __attribute__ ((vector_size (16), aligned (4)));
-/* Eight numbers, for which PG_WIDEST is meant. */
+/* Eight numbers at a time, for functions compiled with PG_WIDEST (AVX-512 where the machine has it). */
 typedef double eight __attribute__ ((vector_size (64), aligned (8)));
 /* Sum of the first three lanes. */
 static inline double three_lanes (const four *a) { return (*a)[0] + (*a)[1] + (*a)[2]; }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Forces that bonds between points carry, whatever the theory: life cycle, balance of forces by a loop over
+ * Forces that bonds between points carry, whatever the theory: creation, balance of forces by a loop over
  * bonds, breaking, mass, work. */
 #include "dilatation.h"
 #include <math.h>

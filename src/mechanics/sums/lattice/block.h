@@ -76,8 +76,10 @@ typedef struct {
 typedef void (*pg_block_loop) (const pg_block_job *job, size_t first, size_t last);
 enum { PG_CHECK_NONE, PG_CHECK_ALL, PG_CHECK_SOME };
 typedef struct {
-    pg_block_loop force[3][2][3][2];  /* [dim - 1][finite][check][weighted]: job->f, job->hit */
-    pg_block_loop energy[3][2][2];                     /* [dim - 1][finite][weighted]: job->energy */
+    /* Pair forces, [dim - 1][finite][check][weighted]: forces to job->f, sets job->hit; [dim -
+     * 1][finite][weighted]: energies to job->energy. */
+    pg_block_loop force[3][2][3][2];
+    pg_block_loop energy[3][2][2];
     /* State-based, [dim - 2][check][weighted]: sums of w xi.eta V times factor to job->alpha (and job->hit);
      * [dim - 2][weighted]: forces to job->f; energies to job->energy, J. */
     pg_block_loop dilate[2][3][2], pull[2][2], store[2][2];

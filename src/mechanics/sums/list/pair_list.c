@@ -147,8 +147,8 @@ static void slice_energy (const pair_list *s, const bond_slots *slots, size_t sl
     }
 }
 
-/* Energies of the chunks first .. last - 1: of bond_energy half for a bond stored once, a quarter for each
- * end of one stored at both. */
+/* Energies of the chunks first .. last - 1. bond_energy is twice the energy: a bond stored once counts by
+ * half of it, one stored at both ends by a quarter at each. */
 static void sum_energies (void *context, size_t first, size_t last, int thread)
 {
     pair_list *s = context;
