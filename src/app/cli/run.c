@@ -269,7 +269,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     pg_status outcome = advance (solver, w, c->quiet), status;
     int kept = 0, failed = outcome != PG_OK;
     if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ());
-    if (w->alone && pg_rank_count () > 1) {            /* the other ranks still wait for this one */
+    if (w->alone && pg_rank_count () > 1) {            /* all other ranks wait for this one */
         fprintf (stderr, "perigal: rank %d: %s\n", pg_rank (), failure);
         if (pg_result_kept (w->result)) command_again (c);
         return outcome;

@@ -40,7 +40,7 @@ typedef struct {
     double *diagonal;                                  /* of the factored matrix, N/m (ndof) */
     double  k;                                         /* the matrix is k K + m M; 1 in statics */
     double  spring;                                    /* on all touched unknowns of the factor, N/m */
-    double  bare;  /* the same on those without any stiffness left, N/m; 0: their old stiffness */
+    double  bare;  /* spring on unknowns without any stiffness left, N/m; 0: their old one */
 } inverse_base;
 
 /* The dense system of the t touched unknowns: arrays of length cap, matrices by columns that are cap
