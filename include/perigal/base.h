@@ -45,16 +45,15 @@ const char *pg_last_error (void);
  * pg_last_error_where. */
 pg_status pg_error (pg_status code, const char *where, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
-/* Source file and line of that failure. */
+/* Source file and line of the last failure on this thread ("file:line"). */
 const char *pg_last_error_where (void);
 
 #define PG_STRING_(x) #x
 #define PG_STRING(x) PG_STRING_ (x)
-/* "file:line" of the place where it stands. */
+/* "file:line" of the source line in which the macro is used. */
 #define PG_HERE __FILE__ ":" PG_STRING (__LINE__)
-/* For functions with `pg_status status = PG_OK;` and a label `done:` that releases what was acquired:
- * PG_FAIL records a message and leaves with that code; PG_TRY leaves where a call fails, whose message
- * stands. */
+/* For functions with `pg_status status = PG_OK;` and a label `done:` that releases what was acquired: PG_FAIL
+ * records a message and leaves with that code; PG_TRY leaves where a call fails, and keeps its message. */
 #define PG_FAIL(code, ...) do { status = pg_error ((code), PG_HERE, __VA_ARGS__); goto done; } while (0)
 #define PG_TRY(call) do { status = (call); if (status != PG_OK) goto done; } while (0)
 
@@ -62,8 +61,8 @@ const char *pg_last_error_where (void);
 /* In front of a function whose loops gain from vectors of four (PG_WIDE) or eight (PG_WIDEST) numbers: it is
  * compiled for these instruction sets and for the one that every machine has, and the machine takes its own
  * when the program is loaded. The operations and their order are the same in all of them, so the bits of a
- * result do not depend on it. Nothing elsewhere, nor where a debugger should find one function only, nor
- * under the thread sanitizer: the choice is made before it has started. */
+ * result do not depend on it. Empty on other machines and compilers, in debug builds (PG_DEBUG: one function
+ * only) and under the thread sanitizer, which starts after the choice is made. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
     && !defined(__SANITIZE_THREAD__)
 #define PG_WIDE   __attribute__ ((target_clones ("avx2", "default")))
@@ -73,7 +72,7 @@ const char *pg_last_error_where (void);
 #define PG_WIDEST
 #endif
 
-/* Eight numbers at a time, wherever they lie: sums in eight lanes round alike with all instruction sets. */
+/* Vector of eight doubles, of any alignment: sums in eight lanes round alike with all instruction sets. */
 typedef double pg_eight __attribute__ ((vector_size (64), aligned (8), may_alias));
 
 /* ---- fingerprint of bytes ----------------------------------------------------------------------------- */
@@ -89,11 +88,11 @@ uint64_t pg_fingerprint_numbers (uint64_t so_far, size_t n, size_t step, const d
 void  *pg_calloc  (size_t n, size_t size);
 /* As realloc, the new part zero-filled; on failure NULL, and the old block stays valid. */
 void  *pg_resize  (void *p, size_t n, size_t size);
-/* NULL is allowed. */
+/* Frees a block of pg_calloc or pg_resize; NULL is allowed. */
 void   pg_free    (void *p);
 /* A copy of the text, NULL when there is no memory. */
 char  *pg_strdup  (const char *text);
-/* Bytes now held; the largest value of that so far; number of allocations so far. */
+/* Bytes allocated now; their largest value so far; number of allocations so far. */
 size_t pg_memory_used  (void);
 size_t pg_memory_peak  (void);
 size_t pg_memory_calls (void);
@@ -102,7 +101,8 @@ void   pg_memory_fail_at (size_t k);
 /* Peak resident memory of the whole process, bytes. */
 size_t pg_memory_process_peak (void);
 /* allocator.c: how the system hands out memory. pg_memory_keep: this process keeps what it frees.
- * pg_memory_large: asks for large pages under a block, if it is large; those above ask for theirs. */
+ * pg_memory_large: asks for large pages under a block, if it is large; pg_calloc and pg_resize do so
+ * themselves. */
 void   pg_memory_keep  (void);
 void   pg_memory_large (void *block, size_t bytes);
 /* malloc, calloc and realloc of C in large pages, for libraries that take such functions. */
@@ -119,16 +119,16 @@ void  *pg_memory_realloc (void *block, size_t bytes);
     size_t cap_ = 2 * (size_t) (need) + 16; void *q_ = pg_resize ((p), cap_, sizeof *(p)); \
     if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", cap_, sizeof *(p)); \
     (p) = q_; (cap) = cap_; } } while (0)
-/* Arrays that share a capacity: PG_GROW of one with `each` values for an element, which leaves the capacity
- * to the PG_GROW of the last. */
+/* Grows one of several arrays that share a capacity, with `each` values per element, as PG_GROW does, but
+ * leaves `cap` as it is: PG_GROW of the last of the arrays updates it. */
 #define PG_GROW_ALSO(p, each, cap, need) do { if ((size_t) (need) > (cap)) { \
     void *q_ = pg_resize ((p), (each) * (2 * (size_t) (need) + 16), sizeof *(p)); \
     if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", (size_t) (need), (each) * sizeof *(p)); \
     (p) = q_; } } while (0)
 
 /* ---- checkpoints -------------------------------------------------------------------------------------- */
-/* One walk over everything that a run must remember: the same code writes a checkpoint or reads it back
- * into the same places. Each call names an array of n entries. */
+/* Writer or reader of checkpoints: the same calls write all that a run must remember, or read it back into
+ * the same arrays. Each call names an array of n entries. */
 typedef struct {
     /* Passed to the functions; reading = 1: values are read back into the arrays. */
     void *context;
@@ -137,14 +137,15 @@ typedef struct {
     pg_status (*counts)  (void *context, const char *name, size_t n, long *value);
     pg_status (*bytes)   (void *context, const char *name, size_t n, void *value);
 } pg_keeper;
-/* What is read back must lie where the rest of the program may rely on it, else PG_E_FILE. */
+/* Checks a value read back from a checkpoint: PG_E_FILE unless low <= value <= high. */
 pg_status pg_kept_within (const char *what, long value, long low, long high);
 #define PG_KEEP_BOUND(k, what, value, low, high) \
     do { if ((k)->reading) PG_TRY (pg_kept_within ((what), (long) (value), (long) (low), (long) (high))); } \
     while (0)
 
-/* A row of the table of fields by which a struct is kept: where the field is, its bytes, how far away that of
- * the next struct of a list is, its type, and for whole numbers the bounds and what a message calls it. */
+/* Describes a field of a struct that is written to checkpoints: its address and bytes, the distance to the
+ * field of the next struct of a list (bytes), its type, and for whole numbers the bounds and the name in
+ * messages. */
 typedef enum {
     PG_KEPT_END, PG_KEPT_DOUBLE, PG_KEPT_LONG, PG_KEPT_INT, PG_KEPT_UNSIGNED, PG_KEPT_SIZE, PG_KEPT_CHAR,
     PG_KEPT_BYTE, PG_KEPT_TYPES
@@ -159,8 +160,8 @@ typedef struct {
 #define PG_KEPT_ROW(at, bytes, stride, x, low, high, what) \
     { (void *) (at), (bytes), (stride), PG_KEPT_TYPE (x), (long) (low), (long) (high), (what) }
 #define PG_ROWS(...) (const pg_kept[]) { __VA_ARGS__, { 0 } }
-/* A variable, or an array of fixed size; a field of every struct of a list; m values of an array for every
- * struct. ..._IN: whole numbers from low to high. */
+/* Descriptions (pg_kept) of a variable or an array of fixed size; of a field of every struct of a list; of m
+ * values of an array for every struct. ..._IN: whole numbers from low to high. */
 #define PG_KEPT(x)            PG_KEPT_IN (x, LONG_MIN, LONG_MAX, NULL)
 #define PG_EACH(list, field)  PG_EACH_IN (list, field, LONG_MIN, LONG_MAX, NULL)
 #define PG_ITEMS(array, m)    PG_ITEMS_IN (array, m, LONG_MIN, LONG_MAX, NULL)
@@ -170,19 +171,19 @@ typedef struct {
                  high, what)
 #define PG_ITEMS_IN(array, m, low, high, what) \
     PG_KEPT_ROW (array, (m) * sizeof *(array), (m) * sizeof *(array), *(array), low, high, what)
-/* The fields of n structs as two arrays of a checkpoint: OBJECT.COUNTS has the whole numbers, OBJECT.NUMBERS
- * the others, struct by struct in the order of the rows; NULL where there are none. When they are read back,
- * nothing changes unless all whole numbers are within their bounds. */
+/* Writes or reads the fields of n structs as two arrays of a checkpoint: OBJECT.COUNTS has the whole numbers,
+ * OBJECT.NUMBERS the others, struct by struct in the order of the rows; NULL where there are none. When they
+ * are read back, nothing changes unless all whole numbers are within their bounds. */
 pg_status pg_keep_fields (const pg_keeper *k, const char *object, const char *counts, const char *numbers,
                           size_t n, const pg_kept *rows);
-/* OBJECT.NAME, the length of a list, and room for it when it is read back. */
+/* Writes or reads the length n of a list as OBJECT.NAME; grows the list when it is read. */
 #define PG_KEEP_LENGTH(k, object, name, list, n, cap, most, what) \
     do { \
         PG_TRY (pg_keep_fields ((k), (object), (name), NULL, 1, PG_ROWS (PG_KEPT_IN (n, 0, most, what)))); \
         if ((k)->reading) PG_GROW (list, cap, n); \
     } while (0)
 pg_status pg_keep_numbers (const pg_keeper *k, const char *object, const char *name, size_t n, double *value);
-/* Bytes from 0 to `most`; a text of fixed size, ended whatever is read. */
+/* Write or read n bytes with values from 0 to `most`; a text of fixed size, which always ends with a zero. */
 pg_status pg_keep_bytes   (const pg_keeper *k, const char *name, size_t n, unsigned char *byte, int most,
                            const char *what);
 pg_status pg_keep_text    (const pg_keeper *k, const char *name, size_t size, char *text);
@@ -190,26 +191,27 @@ pg_status pg_keep_text    (const pg_keeper *k, const char *name, size_t size, ch
 /* ---- clock and threads --------------------------------------------------------------------------------- */
 /* Monotonic wall clock, s. */
 double pg_seconds (void);
-/* A part of a parallel loop: the items first .. last - 1, on the thread of that number. */
+/* Body of a parallel loop: treats the items first .. last - 1, on thread number `thread`. */
 typedef void (*pg_work) (void *context, size_t first, size_t last, int thread);
 /* Calls work on disjoint ranges that cover [0, n). Which thread gets which range does not change a result
  * as long as each item writes only its own output. For many light items: fewer than 64 run on the calling
  * thread. */
 void pg_parallel (int threads, size_t n, pg_work work, void *context);
-/* For few items, each worth a thread. */
+/* pg_parallel for few items, each of them long enough to be worth a thread. */
 void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context);
 
-/* Holds back all signals that somebody else sends to this thread, and to threads that it starts from now on,
- * until they are let through again; *before is what was held back already (a sigset_t). Faults of the
- * thread itself are not held back. */
+/* pg_signals_hold blocks all signals sent from outside to this thread and to threads that it starts from now
+ * on, until pg_signals_release; *before: the signals that were blocked already (a sigset_t). Signals of
+ * faults in the thread itself (such as SIGSEGV) are not blocked. */
 typedef struct { unsigned long set[16]; } pg_signals;
 void pg_signals_hold    (pg_signals *before);
 void pg_signals_release (const pg_signals *before);
 
 /* ---- sorting, searching -------------------------------------------------------------------------------- */
-/* qsort and bsearch for lists that may be empty, whose address may then be NULL, which those forbid. */
+/* Comparison of two elements for pg_sort and pg_search, which are qsort and bsearch for lists that may also
+ * be empty (address NULL). */
 typedef int (*pg_order) (const void *a, const void *b);
-/* Orders of numbers; those of NaN are not defined. */
+/* Comparisons for ascending order of numbers; the order of NaN is undefined. */
 static inline int pg_ascending_sizes (const void *a, const void *b)
 {
     size_t x = *(const size_t *) a, y = *(const size_t *) b;
@@ -235,9 +237,10 @@ static inline void *pg_search (const void *key, const void *list, size_t n, size
 }
 
 /* ---- libraries that are loaded when they are needed ---------------------------------------------------- */
-/* A function of such a library, and where its pointer goes: the offset in the table, bytes. */
+/* A function of a library loaded on demand, and the offset of its pointer in the table of functions,
+ * bytes. */
 typedef struct { const char *name; size_t at; } pg_library_function;
-/* A library, and the table of its functions that the program calls. */
+/* A library loaded on demand (dlopen), and the table of its functions that the program calls. */
 typedef struct {
     /* File that is loaded ("libcairo.so.2"); for messages: the Debian package that has it, and what needs it
      * ("pictures"). */

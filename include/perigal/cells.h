@@ -25,18 +25,17 @@ typedef struct {
     size_t  npoint, nfacet;
     /* Indices of points (npoint) and of facets (nfacet), ascending. */
     int    *point, *facet;
-    /* Points of the set that belong to none of its facets (pg_marks in src/geometry/cells: a facet's points
-     * are its
-     * own nodes or those of the cell behind it). A set that has an inside, such as a layer or `where: x < 1
-     * mm`, must constrain these points one by one, beside integrating over its facets. Not filled (0, NULL)
-     * where the set was chosen by its faces. */
+    /* Points of the set that belong to none of its facets (a facet's points are its own nodes or those of the
+     * cell behind it; src/geometry/cells). A set that has an inside, such as a layer or `where: x < 1 mm`,
+     * must constrain these points one by one, beside integrating over its facets. Not filled (0, NULL) where
+     * the set was chosen by its faces. */
     size_t  ninner;  int *inner;
-    /* Points and facets of the set that all ranks own together, and those of its inside, facets at the
-     * borders of subdomains counted more than once (pg_set_points, pg_set_facets, pg_set_inner); only where
-     * ranks share a run. */
+    /* Numbers of points, facets and inner points of the set on all MPI ranks together, facets at borders of
+     * subdomains counted more than once (pg_set_points, pg_set_facets, pg_set_inner); only in parallel
+     * runs. */
     size_t  all_points, all_facets, all_inner;
     /* 1: the set was chosen by its faces (a side, a part of a shape, `boundary`, a side set of a mesh), not
-     * by a condition on places: a total force is then spread over its area. */
+     * by a condition on positions: a total force is then spread over its area. */
     int     by_faces;
 } pg_set;
 /* Numbers of points and facets of the set on all ranks. */
@@ -63,8 +62,8 @@ typedef struct {
     double *volume;
     /* Index of the mesh block that the cell belongs to; 0 in a lattice (n). */
     int    *block;
-    /* Of ranks that share a body which no lattice gives: which cells this one owns, and the number of each
-     * among those of all ranks; else NULL (n). */
+    /* Parallel runs of a body without a lattice only, else NULL: 1 for each cell that this rank owns, and the
+     * number of each cell among those of all ranks (n). */
     unsigned char *owned;  int64_t *number;
     /* Number of facets. */
     size_t  nfacet;
@@ -82,25 +81,25 @@ typedef struct {
     double *area;
     /* The cell that each facet bounds (nfacet). */
     int    *facet_cell;
-    /* Number of the surface of the body, within `cut`, of which the facet is a piece; -1: the facet is a
-     * face of a whole cell or element (nfacet). */
+    /* Number (in `cut`) of the surface of the body of which the facet is a piece; -1: the facet is a face of
+     * a whole cell or element (nfacet). */
     int    *facet_surface;
     /* Only with a mesh, else NULL: the point of the cloud at each node of the facets, -1 where the node is
      * no point (facet_start[nfacet]). */
     int    *facet_point;
-    /* The sets that the mesh file brought; empty in a lattice (ngiven). */
+    /* Sets defined by the mesh file (ngiven); none with a lattice. */
     pg_set *given;  size_t ngiven;
     /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
     double  thickness;
     /* Geometry of the cut cells, owned by this structure; NULL where no cell is cut. */
     struct pg_cut *cut;
-    /* Least number of Gauss points per direction in cut cells and on cut facets, whatever a caller asks
-     * for. */
+    /* Least number of Gauss points per direction in cut cells and on cut facets, even if a caller asks for
+     * fewer. */
     int     cut_order;
     /* How well volumes of cut cells and areas of cut facets are known: the largest change of one of them by
      * the last raise of the order, over the volume of a whole cell or the area of its largest face; 0: all
-     * changed by less than 1e-13. given_up: searches for corners that found too many places (where surfaces
-     * share a curve, which does no harm, or where they are nearly tangent). */
+     * changed by less than 1e-13. given_up: number of searches for corners (intersections of surfaces) that
+     * found too many positions (where surfaces share a curve, which does no harm, or are nearly tangent). */
     double  unsettled;
     size_t  given_up;
 } pg_cells;
@@ -113,13 +112,14 @@ pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, 
  * facets from their faces that border on none (a staircase). An empty lattice (points from a file) gives no
  * cells. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
-/* Cells and facets of pg_cells_from_lattice, but only of boxes in `within` (indices in the whole lattice, of
- * which this may be a part); kept boxes beyond count as cells: the body has no surface where it ends. */
+/* Makes the cells and facets of pg_cells_from_lattice for the boxes in `within` only (indices in the whole
+ * lattice, of which `lattice` may be a part); there are no facets towards boxes of the body beyond
+ * `within`. */
 pg_status pg_cells_from_part (pg_cells *out, const pg_lattice *lattice, double thickness,
                               const pg_box *within);
 /* A ray in the xy plane (in 3D a half-plane parallel to z) from `centre` (m) in the unit vector
  * `direction`. */
-typedef struct { double centre[2], direction[2]; } pg_ray;  /* in the xy plane; direction of unit length */
+typedef struct { double centre[2], direction[2]; } pg_ray;
 /* Cells of the lattice, cut by the exact surface of the body. A box that the surface crosses becomes a cell
  * of kind PG_CUT; it is kept while its share of the volume of a whole box exceeds 1e-13, wherever its centre
  * lies. Facets are pieces of the surface, one for each pair of cell and surface, divided further along the
@@ -131,7 +131,7 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
 /* The rays at the ends of the angle ranges of all sets of the scene, for pg_cells_cut; the caller frees
  * *out by pg_free. They start at the centre of the body's bounding box. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body);
-/* 1 where `unsettled` is more than 1e-6: the text of a warning that says so. */
+/* Returns 1 and writes a warning into text (size bytes) where cells->unsettled is more than 1e-6. */
 int       pg_cells_doubt (const pg_cells *cells, char *text, size_t size);
 /* Recomputes the volumes of the points from cut cells: each cell is shared equally among its points (its
  * vertices, or its centre). A cell without any gives its volume to the nearest point, in equal parts to all
@@ -142,13 +142,13 @@ pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_latti
  * left out as facets. Node sets become sets of points and of those facets whose nodes all belong to the
  * set. */
 pg_status pg_cells_from_mesh (pg_cells *out, const pg_mesh_body *body, double thickness);
-/* Of ranks that share a body which no lattice gives: of the cells of the whole body leaves those within
- * `reach` (m) of the box of the points that this rank owns, and all that it owns: a cell belongs to the rank
- * of the point nearest to its middle. whole: all points (pg_cloud_divide), owner: of each; afterwards points
- * have the numbers of those held. PG_E_MEMORY. */
+/* Parallel runs of a body without a lattice: keeps of the cells of the whole body those within `reach` (m) of
+ * the box of the points that this rank owns, and all cells that it owns (a cell belongs to the rank of the
+ * point nearest to its middle). whole: all points (pg_cloud_divide), owner: rank of each; afterwards points
+ * are numbered among those stored on this rank. PG_E_MEMORY. */
 pg_status pg_cells_keep (pg_cells *cells, const pg_cloud *whole, const int *owner, double reach);
-/* The name under which a scene refers to a set of a mesh: characters other than letters, digits, - and _
- * become _; at most 56 bytes; "all" becomes mesh_all, an empty name mesh_set. */
+/* Converts the name of a set of a mesh file into the one by which a scene refers to it: characters other than
+ * letters, digits, - and _ become _; at most 56 bytes; "all" becomes mesh_all, an empty name mesh_set. */
 void      pg_set_name (char out[57], const char *name);
 void      pg_cells_clear (pg_cells *cells);
 
@@ -159,24 +159,24 @@ void      pg_cells_clear (pg_cells *cells);
  * All weights
  * are positive; as the boundary is curved, their sum equals the volume only to the accuracy of the order. */
 typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_points;
-/* Append points to `out` (zero at first) with `order` Gauss points per direction, at least
- * cells->cut_order: of a cell or a facet of kind PG_CUT. The only error is PG_E_MEMORY. Not thread-safe:
- * all calls for one pg_cells share a workspace. */
+/* Append quadrature points of a cell or a facet of kind PG_CUT to `out` (zero at first), with `order` Gauss
+ * points per direction, at least cells->cut_order. The only error is PG_E_MEMORY. Not thread-safe: all calls
+ * for one pg_cells share a workspace. */
 pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
 pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
-/* The part of a face (number -x +x -y +y -z +z) of a cell, of any kind in a lattice, that has the body on
- * both of its sides: where two cells are connected. dim > 1; normals stay zero. */
+/* Appends quadrature points of that part of a face (0 .. 5: -x +x -y +y -z +z) of a lattice cell of any kind
+ * that has the body on both sides, where two cells are connected. dim > 1; normals stay zero. */
 pg_status pg_cut_face   (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order);
 void      pg_cut_points_clear (pg_cut_points *points);
-/* Of a surface (facet_surface >= 0): the index of the shape of the body it belongs to; whether it is one of
- * the two flat ends of a cylinder. */
+/* Index of the shape of the body to which a surface (cells.facet_surface >= 0) belongs; 1: it is one of the
+ * two flat ends of a cylinder. */
 int       pg_cut_shape  (const struct pg_cut *cut, int surface);
 int       pg_cut_is_end (const struct pg_cut *cut, int surface);
 
 /* ---- cells that cracks divide -------------------------------------------------------------------------- */
-/* In the plane. A part of a cell as a polygon, counterclockwise: vertices, m; of the edge behind each vertex
- * the side of the cell that it lies on (numbers of Exodus less 1; -1: it runs through the cell), and whether
- * it lies on a crack. */
+/* Part of a 2D cell as a polygon, counterclockwise: vertices, m; for the edge that starts at each vertex the
+ * side of the cell on which it lies (Exodus numbers less 1; -1: inside the cell), and 1 if it lies on a
+ * crack. */
 enum { PG_PART_EDGES = 24, PG_PARTS = 4 };
 typedef struct {
     int n;
@@ -184,21 +184,21 @@ typedef struct {
     int side[PG_PART_EDGES], crack[PG_PART_EDGES];
 } pg_cell_part;
 typedef struct { int n; pg_cell_part part[PG_PARTS]; } pg_cell_parts;
-/* Divides a cell along the cracks (segments; lengths below `nothing`, m, count as none). 1: the parts, one
- * where no crack runs through it; 0: a crack ends, branches or crosses another one in the cell, covers a part
- * of a side, the cell has too many parts, or its sides are not straight. */
+/* Divides a 2D cell along the cracks (segments; lengths below `nothing`, m, count as zero). Returns 1: `out`
+ * has the parts, one where no crack runs through the cell; 0: a crack ends, branches or crosses another one
+ * in the cell, covers a part of a side, the cell has too many parts, or its sides are not straight. */
 int    pg_cell_divide (pg_cell_parts *out, const pg_cells *cells, size_t cell, const pg_cracks *cracks,
                        double nothing);
-/* Where, in shares of the way from a to b, the segment enters and leaves the cell; 0: it does not meet it. A
- * segment along a side is in both cells. Sides must be straight, as above. */
+/* Finds where the segment a - b enters and leaves a 2D cell, as fractions (0 to 1) of its length; returns 0:
+ * it does not meet the cell. A segment along a side is in both cells. Sides of the cell must be straight. */
 int    pg_cell_clip   (const pg_cells *cells, size_t cell, const double *a, const double *b, double nothing,
                        double share[2]);
-double pg_cell_part_area  (const pg_cell_part *part);  /* m^2 */
+double pg_cell_part_area  (const pg_cell_part *part);  /* area, m^2 */
 int    pg_cell_part_holds (const pg_cell_part *part, const double *x);
 
-/* Named sets of a scene: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. For every set NAME there
- * are also NAME.left, .right, .bottom, .top, .back and .front, its halves on that side of the centre of the
- * body's bounding box. */
+/* Named sets of a scene: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. For every set NAME there are
+ * also NAME.left, .right, .bottom, .top, .back and .front, its halves on the left, right ... of the centre of
+ * the body's bounding box. */
 typedef struct {
     pg_set *set; size_t n;
     /* Coordinates, m, of the planes of the bounding box, in the order left right bottom top back front; NAN
@@ -207,24 +207,24 @@ typedef struct {
     /* Names SHAPE.PART of all parts of shapes, for messages. */
     char   parts[320];
 } pg_sets;
-/* Builds all sets, in this order:
- * - the predefined sides left right bottom top back front (facets in the planes of the bounding box and
- * their points; for a body without facets the points within half their spacing of the planes) and all;
+/* Builds all named sets, in this order:
+ * - the predefined sides left right bottom top back front (facets in the planes of the bounding box and their
+ * points; for a body without facets the points within half their spacing of the planes) and all;
  * - the sets of the mesh, which take the place of predefined ones of the same name;
  * - boundary layers; the sets of the scene; the parts of shapes (SHAPE.PART) that loads, averages,
  * `failure.exclude` and `solver.stop` name.
  *
- * Each comes with its halves. Sides that the dimension lacks do not exist. An empty set of the scene is a
- * fault; an empty predefined set or half is not. With PG_E_SCENE all sets are there all the same, so that
- * the caller can look for further faults; it clears them. */
+ * Each comes with its halves. Sides that the dimension lacks do not exist. An empty set of the scene is an
+ * error; an empty predefined set or half is not. Also with PG_E_SCENE all sets are built, so that the caller
+ * can look for further errors of the scene; it clears them. */
 pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice,
                          const pg_cloud *cloud, const pg_cells *cells);
 /* The set of that name, NULL: there is none. */
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
 /* 1: the set is a predefined side in whose plane the body has no face (the top of a disk), hence empty. */
 int           pg_sets_empty_side (const pg_sets *sets, const pg_set *set);
-/* As pg_sets_find, for a name that the scene gives under the key `path`: an unknown name becomes a fault
- * there that suggests the nearest one, an empty side a fault that says what to name instead. */
+/* Finds the set of a name that the scene gives under the key `path`; an unknown name is reported as an error
+ * of the scene that suggests the nearest one, an empty side as an error that says what to name instead. */
 const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name);
 void          pg_sets_clear (pg_sets *sets);
 PG_API_END
