@@ -52,7 +52,7 @@ typedef struct {
     const double *eta;                                 /* relative displacement, m (n x dim) */
     /* support radius of the bond or point over the horizon of the setting; NULL: 1 (n) */
     const double *reach;
-    const double *s1, *s3;  /* largest, smallest principal stress of the mean stress of both ends, Pa (n) */
+    const double *s1, *s3;  /* largest, smallest principal stress, means of both ends, Pa (n) */
     /* gamma (1) and kappa (rad) of bonds that bear shear (n): perigal/sums.h */
     const double *shear, *bending;
     const double *energy;  /* energy density of a point, J/m^3 (n): at its limit all its bonds break */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * integration.h: where the weak form is evaluated: quadrature points in cells and on facets, faces between
  * cells, corrected (consistent) derivatives, patches of the dilatation, and the stabilisation of nodal
- * integration. Cui 2022, section 2.5. A way to integrate is an entry of the catalogue:
+ * integration. Cui 2022, section 2.5. A method of integration is an entry of the catalogue:
  * src/discretization/integration/NAME.c and one line in list.h. */
 #ifndef PERIGAL_INTEGRATION_H
 #define PERIGAL_INTEGRATION_H
@@ -26,7 +26,7 @@ typedef struct {
 /* Frees the arrays and zeroes the structure. */
 void pg_quadrature_clear (pg_quadrature *q);
 
-/* A way of integrating over the body: an entry of the catalogue for method.integration. */
+/* A method of integration over the body: an entry of the catalogue for method.integration. */
 typedef struct {
     /* The value of `method.integration` in a scene, and one line of description. */
     const char *name, *summary;
@@ -42,7 +42,7 @@ typedef struct {
 const pg_integration_type *pg_integration_find (const char *name);
 const pg_integration_type *pg_integration_at_nodes (void);     /* the entry whose points are the nodes */
 const char *pg_integration_names (void);
-/* The integration of a scene for shape functions: what it says; else that at the nodes for points without
+/* Chooses the integration for shape functions: that of the scene; else nodal integration for points without
  * cells, and, if `needed` (cells are cut, or cracks grow by facets), the consistent one, which is exact
  * there. Not for the quadratic basis, where it costs several times as much, nor for approximations that
  * interpolate: there, and where it is not needed, the first of the list. */
@@ -115,19 +115,19 @@ typedef struct {
     /* The points of the cloud, borrowed; order of the basis. */
     const pg_cloud *cloud;
     int       order;
-    /* Faces whose fluxes were changed so that their cells close (faces); cells whose quadrature misses the
-     * divergence theorem without that, or could for products (cells). */
+    /* amended: faces whose fluxes were changed so that the divergence theorem holds in their cells (faces);
+     * uneven: cells whose quadrature would violate it otherwise, or may for products (cells). */
     unsigned char *amended, *uneven;
     /* A small cell keeps its direct derivatives, and its host obeys the identity of both: the hosts of each
      * cell, several where its neighbours have equal claims, the small cells of each host, and the share of
-     * the identity of each of these that the host takes (as guests.node). */
+     * the identity of each of these that the host takes (in the layout of guests.node). */
     pg_family hosts, guests;
     double   *guest_share;
-    /* The cells that must have all their bonds for the derivatives of a cell to be corrected: it and those
-     * beside it, and the same of its guests; the other way round, the cells that are no longer corrected
-     * when a cell loses a bond. */
+    /* The cells that must have all their bonds for the derivatives of a cell to be corrected: itself, its
+     * neighbours, and the same for its guests (the small cells it hosts). opens: the inverse relation, the
+     * cells no longer corrected when a cell loses a bond. */
     pg_family needs, opens;
-    /* Points of faces with wider supports (face.wide), and those that still see too little. */
+    /* Points of faces with wider supports (face.wide), and points that still have too few neighbours. */
     pg_widened widened;
 } pg_consistency;
 /* Finds the faces (face_order Gauss points per direction), their shape functions, and the lists of nodes.
@@ -135,13 +135,14 @@ typedef struct {
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
                                  const pg_cloud *cloud, const pg_rows *points, int face_order, int threads);
 void      pg_consistency_free   (pg_consistency **c);
-/* Normals (rows of facets x dim) of points on facets whose fluxes were changed: flux over weight, not quite
- * of unit length. Loads, supports and the identity then see the same surface. c NULL: nothing is changed. */
+/* Sets the normals (rows of facets x dim) of points on facets whose fluxes were changed to flux / weight, not
+ * quite of unit length, so that loads, supports and the divergence identity use the same surface. c NULL:
+ * nothing is changed. */
 void      pg_consistency_normals (const pg_consistency *c, const pg_rows *facets, double *normal);
 /* Writes wide->N and wide->dN (in the layout of c->family) for the cells list[0..count), or for all cells
- * where list is NULL, from the direct values in `points`: corrected in cells with whole[cell] set, copied
- * in others. face: N at the points of faces, in the layout of c->face (NULL: those of the intact body). Each
- * cell writes only its own points, so that results do not depend on the number of threads. */
+ * where list is NULL, from the uncorrected values in `points`: corrected in cells with whole[cell] set,
+ * copied in others. face: N at the points of faces, in the layout of c->face (NULL: those of the intact
+ * body). Each cell writes only its own points, so that results do not depend on the number of threads. */
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
                                 const unsigned char *whole, const double *face, size_t count,
                                 const size_t *list, int threads);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * mesh.h: finite elements (shape functions, faces, quadrature), meshes, fields on their nodes, and search
- * for the element that holds a place. Knows no scene: faults are returned by pg_error (PG_E_FILE) with file
+ * mesh.h: finite elements (shape functions, faces, quadrature), meshes, fields on their nodes, and search for
+ * the element that contains a position. Knows no scene: errors are returned by pg_error (PG_E_FILE) with file
  * and line, or the element. */
 #ifndef PERIGAL_MESH_H
 #define PERIGAL_MESH_H
@@ -16,7 +16,7 @@ PG_API_BEGIN
 typedef enum { PG_POINT1, PG_BAR2, PG_BAR3, PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TET4, PG_TET10,
                PG_HEX8, PG_HEX20, PG_HEX27, PG_WEDGE6, PG_WEDGE15, PG_PYRAMID5,
                PG_ELEMENTS } pg_element;
-/* Most nodes of an element, most points of a quadrature rule. */
+/* Maximum numbers of nodes of an element, of points of a quadrature rule. */
 enum { PG_ELEMENT_NODES = 27, PG_ELEMENT_POINTS = 125 };
 
 /* Properties of a kind of element. */
@@ -56,7 +56,8 @@ void       pg_gauss_rule    (int order, double *x, double *w);
  * of nodes of pg_element_face (a point in 1D: +1); zero for other elements. */
 double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place,
                        double *normal);
-/* Isoparametric map (pg_element_map) from N and dN at xi (pg_element_shape), shared by elements of a kind. */
+/* Isoparametric map as pg_element_map, from given N and dN at xi (pg_element_shape), which elements of a kind
+ * share. */
 double pg_element_map_by (pg_element kind, int dim, const double *x, const double *N, const double *dN,
                           double *place, double *normal);
 /* Reference coordinates of a place in an element with d = dim, by Newton's method; 0: it did not converge.
@@ -73,7 +74,7 @@ typedef struct { char name[64]; int id; size_t n; int *element, *side; } pg_mesh
 /* A block: a group of n elements, usually of one material. */
 typedef struct { char name[64]; int id; size_t n; } pg_mesh_block;
 
-/* What a reader has passed over, and how often: "*MATERIAL", "section $NodeData". */
+/* Something that the reader of a file ignored ("*MATERIAL", "section $NodeData"), and how often. */
 typedef struct { char what[96]; size_t n; } pg_mesh_passed;
 /* Elements of a type that is not known, which are not in the mesh: what to say of them (file, line, type),
  * and the block that they belong to ("" for none). */
@@ -106,12 +107,13 @@ typedef struct {
     /* Node sets: those of the file, and the nodes of every side set. */
     pg_mesh_nodes *nodes;
     pg_mesh_sides *sides;
-    /* What of the file is not in the mesh. A mesh with foreign elements has holes where they belong to the
-     * body: who uses it asks whether their blocks are meant. */
+    /* Content of the file that is not in the mesh: what was ignored, and elements of unknown type (foreign),
+     * which leave holes where they belong to the body: the user of the mesh checks whether their blocks are
+     * needed. */
     size_t  npassed, nforeign;
     pg_mesh_passed  *passed;
     pg_mesh_foreign *foreign;
-    /* Type of elements that the file means for plane strain (CPE4), the first of them; "": there are none. */
+    /* First element type of the file that stands for plane strain (CPE4); "": there is none. */
     char    plane_strain[32];
 } pg_mesh;
 /* Frees what the mesh holds and zeroes it. */
@@ -139,14 +141,14 @@ pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node);
 pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id);
 pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element,
                                        int side /* from 0, as pg_element_face */);
-/* Notes that something of the file is passed over: the same words are counted. */
+/* Records that something in the file is ignored; equal texts are counted. */
 pg_status pg_mesh_builder_pass    (pg_mesh_builder *m, const char *format, ...)
     __attribute__ ((format (printf, 2, 3)));
-/* Notes elements that are left out as their type is not known, in this block ("": none); words: what to say
- * of them, kept of the first of a type and block. */
+/* Records elements of an unknown type that are left out, in this block ("": none); words: message about them,
+ * kept for the first of a type and block. */
 pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const char *block,
                                    const char *words);
-/* Notes that elements of this type are meant for plane strain. */
+/* Records that elements of this type stand for plane strain. */
 void      pg_mesh_builder_plane_strain (pg_mesh_builder *m, const char *type);
 /* The name of a group that has got one, else its number; dim 0: of any dimension. */
 void      pg_mesh_builder_group_name (const pg_mesh_builder *m, int dim, long group, char name[64]);
@@ -176,26 +178,25 @@ typedef struct {
     size_t nforeign;
 } pg_mesh_given;
 pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m);
-/* Moves the element at place e of what was given into another group. */
+/* Moves element e of pg_mesh_builder_given into another group. */
 void pg_mesh_builder_regroup (pg_mesh_builder *m, size_t e, long group);
-/* Gives nodes and elements the numbers of a map, for files that count them from 1 first and number them
- * later: what is called k becomes node[k - 1] or element[k - 1], in elements and sets as well. NULL leaves
- * the numbers. Where a number lies beyond the map (nnode entries) nothing is changed: the builder finds
- * that fault when it finishes. */
+/* Renumbers nodes and elements, for files that give their numbers at the end: number k becomes node[k - 1] or
+ * element[k - 1], in elements and sets as well. NULL leaves the numbers. Where a number lies beyond the map
+ * (nnode entries) nothing is changed: the builder finds that fault when it finishes. */
 void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *node, const long *element);
 
 /* ---- numbers of a file --------------------------------------------------------------------------------- */
-/* Finds the place of a number in a list in constant time: by a table where the numbers are dense, else by a
+/* Finds the index of a number in a list in constant time: by a table where the numbers are dense, else by a
  * hash table. */
 typedef struct { long low; size_t range, n; int *direct; const long *id; unsigned mask; } pg_id_table;
-/* Table of n numbers, borrowed. *twice: the second place of a number that is there twice; n: there is
- * none. */
+/* Builds the table of n numbers (borrowed). *twice: the second index of a number that occurs twice; n: none
+ * does. */
 pg_status pg_id_table_build (pg_id_table *t, size_t n, const long *id, size_t *twice);
-/* The place of a number in the list; -1: it is not there. */
+/* Index of a number in the list; -1: it is not in it. */
 long      pg_id_table_find  (const pg_id_table *t, long id);
 void      pg_id_table_clear (pg_id_table *t);
 
-/* The faces that belong to one solid element only: n of them, element and side of each (free both by
+/* Finds the outer faces (of one solid element only): n of them, element and side of each (free both by
  * pg_free), ordered by element and side. PG_E_MEMORY, PG_E_LIMIT. */
 pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **side);
 
@@ -207,11 +208,11 @@ void      pg_mesh_fields_clear (size_t n, pg_mesh_field **fields);
  * into the plane mesh: nodes keep the numbers of those at the lower z; x, y and fields become the means of
  * both sides (vectors lose their z). PG_E_USAGE: it is not such a mesh; nothing is changed then. */
 pg_status pg_mesh_flatten (pg_mesh *mesh, size_t nfield, pg_mesh_field *fields);
-/* The field at xi of an element: out (components). */
+/* Value of a field at xi of an element: out (components). */
 void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
                     double *out);
-/* Its gradient: out (components x dim), d value_c / d x_a, per unit of x. 0: the element is turned inside
- * out there, and out is zero. */
+/* Gradient of a field at xi of an element: out (components x dim), d value_c / d x_a, per unit of x. 0: the
+ * element is turned inside out there, and out is zero. */
 int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
                       double *out);
 
