@@ -13,7 +13,7 @@ PG_API_BEGIN
  * netCDF-4. */
 enum { PG_NC_BYTE = 1, PG_NC_CHAR, PG_NC_SHORT, PG_NC_INT, PG_NC_FLOAT, PG_NC_DOUBLE, PG_NC_UBYTE,
        PG_NC_USHORT, PG_NC_UINT, PG_NC_INT64, PG_NC_UINT64 };
-/* Longest name, most dimensions of a variable. */
+/* Maximum length of a name, maximum number of dimensions of a variable. */
 enum { PG_NC_NAME = 256, PG_NC_DIMENSIONS = 1024 };
 
 /* An open file. */
@@ -36,7 +36,7 @@ void      pg_netcdf_close (pg_netcdf **file);
 
 /* Length of a dimension; 0: there is none of that name. */
 size_t    pg_netcdf_length (const pg_netcdf *file, const char *dimension);
-/* Number of variables; number of the one of that name, -1: there is none; what is known about one. */
+/* Number of variables; index of the variable of that name, -1: there is none; properties of a variable. */
 size_t    pg_netcdf_variables (const pg_netcdf *file);
 int       pg_netcdf_find (const pg_netcdf *file, const char *name);
 void      pg_netcdf_about (const pg_netcdf *file, int variable, pg_netcdf_variable *about);

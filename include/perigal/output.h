@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.h: writes and reads files that hold plain arrays: fields at points in Exodus format,
- * tables as CSV, JSON, and checkpoints. This folder knows columns, fields and points; which of
- * them a run writes, and when, is decided by results.h.
+ * output.h: writes and reads files that hold plain arrays: fields at points in Exodus format, tables as CSV,
+ * JSON, and checkpoints. This folder knows columns, fields and points; which of them a run writes, and when,
+ * is decided by results.h.
  *
- * Common to all writers: a file never holds half a record. Whatever cannot be written whole is
- * removed again, and the function returns PG_E_FILE with the path and the reason of the system
- * (a full disk, missing permission). PG_E_USAGE: the request itself is wrong; PG_E_MEMORY: no
- * memory. */
+ * All writers: a file never contains an incomplete record. Whatever cannot be written completely is removed,
+ * and the function returns PG_E_FILE with the path and the reason of the system (a full disk, missing
+ * permission). PG_E_USAGE: the request itself is wrong; PG_E_MEMORY: no memory. */
 #ifndef PERIGAL_OUTPUT_H
 #define PERIGAL_OUTPUT_H
 #include "perigal/cloud.h"
@@ -16,7 +15,7 @@
 PG_API_BEGIN
 
 /* ---- fields on points ---------------------------------------------------------------------------------- */
-/* A field at the n points of a cloud, as the caller holds it. */
+/* A field at the n points of a cloud, in arrays of the caller. */
 typedef struct {
     /* Name without its component, such as "displacement", "damage", "stress". */
     char   name[32];
@@ -29,18 +28,16 @@ typedef struct {
     const double *value;
 } pg_field_view;
 
-/* A face of a piece of a crack, with nodes of its own at its corners: in the plane a line of 2, in space a
- * triangle of 3. Their places (m), the points whose values they take, and the time of the first moment at
- * which it exists. */
+/* A face of a piece of crack with its own nodes at its corners (2D: a line of 2, 3D: a triangle of 3): their
+ * positions (m), the points whose values they take, and the first output time at which the face exists. */
 typedef struct { double x[3][3]; size_t point[3]; double since; } pg_crack_face;
 
 /* ---- writers: a catalogue of formats for the fields of a run ------------------------------------------- */
-/* A run writes all its fields at some moments: a moment has a number, from 0, a time, and the values of every
- * field at that time. */
-/* What one of several processes that divide the points says of the whole: which part it has and of how many,
- * and whether the parts are to become one when the run has ended. While a writer begins: the number of each
- * of its points in the whole, from 0 and not without gaps (n); points of the whole, and of them those of each
- * block, 0 .. nblock - 1. */
+/* Output is written at moments: a moment has a number (from 0), a time, and the values of every field at that
+ * time. */
+/* Division of the points among processes: index of this process's part, number of parts, 1 if parts are
+ * joined at the end of the run. Used while a writer is opened: global number of each point of this process,
+ * from 0, possibly with gaps (n); total number of points, and number in each block 0 .. nblock - 1. */
 typedef struct {
     int     part, size, joined;
     const int64_t *number;
@@ -48,8 +45,8 @@ typedef struct {
     size_t  nblock;
     const int64_t *in_block;
 } pg_field_share;
-/* What a writer is to write; it stays where it is until the writer is closed. folder: that of the result, one
- * for all parts. cloud: the points of this process. field: names, units and components (nfield). share NULL:
+/* Request to a writer, which must remain valid until the writer is closed. folder: the result folder, common
+ * to all parts. cloud: the points of this process. field: names, units and components (nfield). share NULL:
  * this process has all points. */
 typedef struct {
     const char *folder, *title;
@@ -58,10 +55,10 @@ typedef struct {
     const pg_field_view *field;
     const pg_field_share *share;
 } pg_field_request;
-/* How far a writer was: moments that it had written, and what its `keep` said. */
+/* Position of a writer stored in a checkpoint: number of moments written, and the value of its `keep`. */
 typedef struct { long moments, keep; } pg_field_marks;
-/* Can processes that divide the points use the writer? Not at all; each leaves a part of its own; or the
- * parts become what one process would have written, where output.join asks for it. */
+/* Support of parallel runs by a writer: none; each process writes its own part; or the parts can be joined
+ * into what one process would have written (output.join). */
 enum { PG_PARTS_NONE, PG_PARTS_STAY, PG_PARTS_JOIN };
 /* An entry of the catalogue: src/io/output/NAME.c and one line in list.h. Functions marked (NULL) may be
  * missing. Whatever ends the run, moments written so far can be read. Failures of files are PG_E_FILE with
@@ -84,16 +81,16 @@ typedef struct {
     void      (*close) (void **self);
     /* Waits until the system has put all moments on the disk (NULL: FOLDER/file is all there is). */
     pg_status (*sync) (void *self);
-    /* The last moment is written: makes beside it what the finished result has more, on the disk: the n
-     * faces of cracks, or what parts become together; `open` can still go on as if it had not been called
+    /* Called after the last moment: writes what the finished result has in addition (the n faces of cracks,
+     * or the joined parts) to separate files; `open` can still continue the run as if it had not been called
      * (NULL). */
     pg_status (*prepare) (void *self, size_t n, const pg_crack_face *face);
-    /* done 1: the run cannot be gone on with any more, and what was prepared takes its place; 0: the run
-     * failed, and what was prepared is removed. It is called too where a run was killed behind its end (share
-     * NULL then), and where nothing was prepared (NULL). */
+    /* done 1: the run is complete, and the files of `prepare` replace the result; 0: the run failed, and they
+     * are removed. It is also called for a run that was killed after its end (share NULL then), and if
+     * nothing was prepared (NULL). */
     pg_status (*finish) (const char *folder, const pg_field_share *share, int done);
-    /* Removes from a folder what runs of this format have left, all of it (keep -1), or what does not belong
-     * to a run of one process (keep 0) or of `keep` parts (NULL: FOLDER/file is all there is). */
+    /* Removes the files of this format from a folder: all (keep -1), or those that do not belong to a run of
+     * one process (keep 0) or of `keep` parts (NULL: FOLDER/file is the only one). */
     void      (*clear) (const char *folder, int keep);
     /* Reads back, so that a run can go on among other processes, which divide the points anew and write all
      * moments again: number and times of the moments in FOLDER; a field of one of them, at the points of part
@@ -106,11 +103,11 @@ typedef struct {
 /* The writer of that name, NULL: unknown; all names, separated by |. */
 const pg_writer *pg_writer_find  (const char *name);
 const char      *pg_writer_names (void);
-/* Removes from a folder what runs of other formats have left, and of `own` what `keep` says (its `clear`). */
+/* Removes the files of other formats from a folder, and those of `own` by its `clear` with `keep`. */
 void             pg_writer_clear (const pg_writer *own, const char *folder, int keep);
 /* PG_E_USAGE: the fields in the folder have a format that cannot be read back. */
 pg_status        pg_writer_readable (const char *folder);
-/* Finishes a folder whose run was killed behind its end, whichever writer it had. PG_E_FILE. */
+/* Finishes a result folder whose run was killed after its end, for any writer. PG_E_FILE. */
 pg_status        pg_writer_complete (const char *folder);
 
 /* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point -------------- */
@@ -161,7 +158,7 @@ pg_status pg_exodus_read (const char *path, const char *field, int step, size_t 
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud /* x, n, dim, volume, box, h filled */,
                             size_t *nstep, double **time);
 /* Names of the fields without component suffixes; *names is to be freed with pg_free. */
-pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);    /* base names as written */
+pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);
 /* Unit of a field, "" if the file gives none. */
 pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);
 
@@ -197,8 +194,8 @@ pg_status pg_table_sync   (const pg_table *table);
 pg_status pg_table_row    (pg_table *table, const double *values);
 /* Appends a row of n texts, quoted where necessary; NULL leaves its cell empty. */
 pg_status pg_table_line   (pg_table *table, const char *const *values);
-/* Appends one of many rows of n texts, which may wait for those behind it. pg_table_write writes what waits,
- * as does the next row or line; pg_table_close drops it, and a failure all that was not written. */
+/* Appends a row of n texts to a buffer. pg_table_write writes the buffer to the file, as does the next row or
+ * line; pg_table_close discards it, and so does a failure. */
 pg_status pg_table_line_later (pg_table *table, const char *const *values);
 pg_status pg_table_write  (pg_table *table);
 void      pg_table_close  (pg_table **table);
@@ -243,8 +240,8 @@ pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context);
 pg_status pg_checkpoint_commit  (const char *path);
 /* Removes PATH.new, if it is there. */
 void      pg_checkpoint_drop    (const char *path);
-/* A checkpoint that stays open, to be read by names in any order: its keeper; how many values it has under a
- * name, 0: none. Its checksum is not compared: pg_checkpoint_read does so. */
+/* A checkpoint opened for reading values by name in any order: its keeper; number of values under a name, 0:
+ * none. The checksum is not verified here (pg_checkpoint_read does). */
 typedef struct pg_checkpoint pg_checkpoint;
 pg_status pg_checkpoint_open   (pg_checkpoint **out, const char *path);
 const pg_keeper *pg_checkpoint_keeper (const pg_checkpoint *checkpoint);

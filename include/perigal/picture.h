@@ -16,12 +16,12 @@
 PG_API_BEGIN
 
 /* ---- pictures (PNG or SVG by the file's ending) ----------------------------------------------------- */
-/* Where the body is, which the points alone do not say exactly at its edges. Exactly one of
- * the three is used, in this order: a mesh of plane elements (coordinates in m), the cells of
- * a lattice that belong to the body (if lattice->dim > 0), the shapes of the body. */
+/* Outline of the body, which the points alone do not define exactly at its edges. Exactly one of the three is
+ * used, in this order: a mesh of plane elements (coordinates in m), the cells of a lattice that belong to the
+ * body (if lattice->dim > 0), the shapes of the body. */
 typedef struct { const pg_body *body; const pg_lattice *lattice; const pg_mesh *mesh; } pg_outline;
-/* What the frames of several pictures of one cloud reach across and upwards, m, so that all can have the
- * same; any = 1: something has been measured. */
+/* Common frame of several pictures of one cloud: range across and upwards, m; any = 1: at least one picture
+ * has been measured. */
 typedef struct { int any; double low[2], high[2]; } pg_reach;
 /* How a picture looks. A structure of zeros is a valid choice: no title, colours over the
  * range of the values, an undeformed body, in 3D the section through the middle of z. */
@@ -68,7 +68,7 @@ typedef struct {
     int         edges;
     /* Meshes only: 1 colours the named sets of sides or nodes and ignores the values. */
     int         sets;
-    /* Where the body is; NULL: this is estimated from the points alone. */
+    /* Outline of the body; NULL: estimated from the points alone. */
     const pg_outline *outline;
     /* Damage of the points (n), or NULL if it is not known. In a deformed picture two
      * neighbours of which one has a damage below 0.1 stay together however much the
@@ -147,8 +147,8 @@ pg_status pg_picture_reach  (pg_reach *reach, const pg_cloud *cloud, const pg_pa
 /* A movie: pictures of one size, one after the other, as an animated PNG that begins again at its end (PNG
  * third edition, W3C 2025), which browsers show; other programs show its first picture. */
 typedef struct pg_movie pg_movie;
-/* path: ends in .png or .apng; so many pictures will follow, `rate` of them in a second (0.01 to 1000).
- * PG_E_USAGE; PG_E_FILE. */
+/* Creates a movie of `frames` pictures, shown at `rate` per second (0.01 to 1000); path ends in .png or
+ * .apng. PG_E_USAGE; PG_E_FILE. */
 pg_status pg_movie_create (pg_movie **out, const char *path, size_t frames, double rate);
 /* Appends a picture, a PNG file written by this folder. PG_E_USAGE: it has not the size of the first one;
  * PG_E_FILE: it cannot be read, or the movie not written. */
@@ -216,25 +216,25 @@ typedef struct {
     size_t npale;   const pg_curve *pale;
     /* Rings with texts; only the first eight texts are written. */
     size_t nmark;   const pg_chart_mark *marks;
-    /* 1: lines through x = 0 and y = 0 where these lie inside the frame. */
+    /* 1: draws lines through x = 0 and y = 0 where these lie inside the frame. */
     int zero;
 } pg_chart_style;
 /* Draws curves over common axes. Curves differ in colour and in marker; from the ninth on also
  * in dashes and by hollow markers. Nothing visible gives an empty chart from 1 to 10. */
 pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves,
                             const pg_chart_style *style);
-/* The envelope of an equilibrium path: what a test shows that raises |x| steadily
- * (displacement control), given a path of n states (x, y) of a body that breaks event by
- * event, in which both may fall and rise (snap-back). A state belongs to the envelope if its
+/* Computes the envelope of an equilibrium path, the curve measured in a test that raises |x| steadily
+ * (displacement control), given a path of n states (x, y) of a body that breaks event by event, in which both
+ * may fall and rise (snap-back). A state belongs to the envelope if its
  * |x|, of the sign of the largest |x|, exceeds that of all states before it.
  *
- * linear = 1 says that between two events the states lie on a line through the origin, as they
- * do if all loads grow in proportion: then the envelope starts at the origin, and at each
- * event y falls at constant x to the line of the next state that counts, or at the end to that
- * of the last state. linear = 0 joins the states that count.
+ * linear = 1 says that between two events the states lie on a line through the origin, as they do if all
+ * loads grow in proportion: then the envelope starts at the origin, and at each event y falls at constant x
+ * to the line of the next state that counts, or at the end to that of the last state. linear = 0 joins the
+ * states that count.
  *
- * ex, ey must hold 2 n + 2 values each; the return value says how many were written. *peak is
- * the index of the largest |y| among them. */
+ * ex, ey must hold 2 n + 2 values each; the return value says how many were written. *peak is the index of
+ * the largest |y| among them. */
 size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
                     size_t *peak);
 PG_API_END
