@@ -99,7 +99,7 @@ int    pg_problem_by_facets (const pg_problem *problem, const pg_scene *scene);
 double pg_load_share (const pg_load *load, size_t i);
 const double *pg_load_site (const pg_load *load, const double *x);
 int    pg_load_prescribes (const pg_load *load);       /* 1: displacement, velocity or rotation */
-int    pg_load_rotates (const pg_load *load);            /* rotation or moment */
+int    pg_load_rotates (const pg_load *load);            /* 1: rotation or moment */
 int    pg_load_components (const pg_load *load, int dim);  /* dim; of a rotation or moment 1 in 2D, 3 in 3D */
 char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', 'y', 'z' of component k */
 

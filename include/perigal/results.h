@@ -15,38 +15,39 @@
 
 PG_API_BEGIN
 
-/* Reports the faults of the section `output` of a scene that only the dimension of the problem
- * shows, as faults of the scene. pg_result_open does this as well. */
+/* Reports errors of the section `output` of a scene that depend on the dimension of the problem, as errors of
+ * the scene. pg_result_open does this as well. */
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
-/* The part of it that needs no problem: names of pictures that do not exist in this dimension.
- * It serves `perigal check` of a scene with other faults, too. */
+/* The part of pg_result_check that needs no problem: names of pictures that do not exist in this dimension.
+ * Used by `perigal check` of a scene with other faults, too. */
 void      pg_result_check_names (const pg_scene *scene);
 
 /* ---- statistics of the cracks of a scene -------------------------------------------------------------- */
 enum { PG_CRACK_SETS = 16 };
-/* Of all cracks, and of each entry of `cracks` (0, 1, ...) where there are several entries and one of them
- * holds several cracks; at most 16. */
+/* Statistics of all cracks, and, if there are several entries of `cracks` and one contains several cracks, of
+ * each entry (0, 1, ...); at most 16. */
 typedef struct {
     int        dim;
     pg_network all;
     size_t     nset;
     struct { size_t entry; pg_network of; } set[PG_CRACK_SETS];
 } pg_crack_statistics;
-/* Of the cracks that the scene gives (pg_network_read). */
+/* Computes the statistics of the cracks of a scene (pg_network_read). */
 pg_status pg_crack_statistics_measure (pg_crack_statistics *out, const pg_cracks *all,
                                        const pg_scene *scene);
-/* As an object of that name; nothing without cracks. Lengths and places in SI units, angles in degrees. */
+/* Writes the statistics as a JSON object of that name; nothing without cracks. SI units, angles in
+ * degrees. */
 void      pg_crack_statistics_json (pg_json *j, const char *name, const pg_crack_statistics *s);
 /* Mean direction of cracks in the plane, degrees from the x axis, 0 to 180. */
 double    pg_network_direction (const pg_network *n);
 
-/* All that pg_result_open does before it touches a file: fields, views, averages, tips, reference.
+/* Does all that pg_result_open does before it opens files: fields, views, averages, tips, reference.
  * PG_E_SCENE: what the scene asks for cannot be had. */
 pg_status pg_result_plan (const pg_scene *scene, const pg_problem *problem, pg_solver *solver);
 /* An open result folder. */
 typedef struct pg_result pg_result;
-/* The folder in which this process keeps its tables and its checkpoint: `folder`, or where ranks share a run
- * (perigal/ranks.h) and it is not the first one, ranks/RANK below that. */
+/* The folder in which this process keeps its tables and its checkpoint: `folder`, or in parallel runs
+ * (perigal/ranks.h) on all ranks but the first, ranks/RANK below it. */
 void pg_result_rank_folder (char *out, size_t size, const char *folder);
 /* Makes the folder and locks it (DIR/run.lock) until pg_result_free. Problem and solver are
  * borrowed. PG_E_USAGE: another run uses the folder, and the reasons of pg_result_may_open. */
@@ -56,11 +57,11 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
  * rows without a report of another scene), or overwrite a scene.yaml that no run put there, or
  * if `folder` is a file. */
 pg_status pg_result_may_open (const char *folder, const pg_scene *scene);
-/* 1: ranks that divide so many points put their fields together at the end (output.format, output.join) */
+/* 1: a parallel run with so many points joins its fields at the end (output.format, output.join) */
 int       pg_result_joins (const pg_scene *scene, double points);
-/* The file in the folder that has the fields. */
+/* Name of the file in the folder that contains the fields. */
 const char *pg_result_fields (const pg_result *result);
-/* 1: there is a checkpoint that the run can go on from. */
+/* 1: the folder has a checkpoint from which the run can continue. */
 int       pg_result_kept (const pg_result *result);
 /* Removes the checkpoint and the rows of an unfinished run; the rest of the folder stays.
  * PG_E_USAGE: a run uses it. */
@@ -93,27 +94,26 @@ int       pg_result_due    (const pg_result *result);
 /* Where a resumed run begins: steps done, rounds of breaking done in the next one, seconds
  * that the run took so far, threads and ranks (1: one process alone) that it had. */
 typedef struct { long step, rounds; double seconds; int threads, ranks; } pg_resumed;
-/* Brings solver and state to where the checkpoint of the folder was written and cuts off what
- * the files have got since, so that the run goes on with the same bits; of another number of ranks (or none)
- * to where its last step was made, so that it goes on but for rounding. *out NULL: this run was killed in the
- * folder before its first checkpoint, so that it begins anew by pg_result_open. PG_E_USAGE: no
- * checkpoint, or one of another scene, version or points; PG_E_FILE: a damaged one. */
+/* Restores solver and state from the checkpoint of the folder and truncates its files to that time, so that
+ * the run continues with the same bits; if the number of ranks has changed, it continues from the last
+ * complete step, up to rounding. *out NULL: the run was killed before its first checkpoint and must begin
+ * anew by pg_result_open. PG_E_USAGE: no checkpoint, or one of another scene, version or points; PG_E_FILE: a
+ * damaged one. */
 pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from);
 /* 1 if the folder holds the complete results of this scene and no checkpoint. */
 int       pg_result_finished (const char *folder, const pg_scene *scene);
-/* Does what was still to do in the folder of a finished run that was killed behind its end: the faces of
- * cracks come into result.e, folders and parts that ranks have left go. PG_E_FILE; PG_E_USAGE: another
- * process uses the folder. */
+/* Completes the folder of a run that was killed after its end: adds the faces of cracks to result.e, removes
+ * folders and parts left by ranks. PG_E_FILE; PG_E_USAGE: another process uses the folder. */
 pg_status pg_result_complete (const char *folder);
 /* What pg_result_finish measured against the reference of the scene; NULL if there is none. */
 const pg_errors *pg_result_errors (const pg_result *result);
 /* The estimated error of the last stress, after pg_result_finish; NULL if none was made. */
 const pg_estimate *pg_result_estimate (const pg_result *result);
-/* The k-th entry of output.tips in words: how far its crack has come, when and how fast.
- * Returns 0 past the end. */
+/* Describes entry k of output.tips in words: how far its crack has grown, when and how fast. Returns 0 past
+ * the end. */
 int       pg_result_tip    (const pg_result *result, size_t k, char *out, size_t size /* 256 */);
-/* After pg_result_finish, a line each: the largest force and where it was reached, the secant
+/* Writes line k of a summary after pg_result_finish: the largest force and where it was reached, the secant
  * stiffness, the new crack and its energy. Returns 0 past the end. */
 int       pg_result_words  (const pg_result *result, size_t k, char *out, size_t size /* 1 or more */);
 const char *pg_result_folder (const pg_result *result);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * scene.h: what the user wrote. YAML becomes checked names, SI numbers and expressions, each with its place
- * in the file. Knows no method: every folder brings a table of its keys (`pg_keys_<folder>`), and
- * src/scene/keys/list.h has one line per table. These tables drive parsing, checks, `perigal help KEY` and
- * doc/input.md alike.
+ * scene.h: the input file of a run ("scene"). YAML becomes checked names, SI numbers and expressions, each
+ * with its position in the file. Independent of methods: every folder provides a table of its keys
+ * (`pg_keys_<folder>`), and src/scene/keys/list.h has one line per table. These tables drive parsing, checks,
+ * `perigal help KEY` and doc/input.md alike.
  *
  * A scene goes through these steps: libyaml reads the text into a tree (src/scene/yaml.c); overrides `--set
  * KEY=VALUE` change it (override.c); every node is checked against the row of its key (check.c, value.c),
  * where numbers are converted to SI (unit.c, measure.c) and expressions compiled once to find their faults
- * (compile.c). After that values are asked for by their path (access.c), and a default stands in for what
- * is not written. All faults are collected and reported together, each with file, line, column, key and
- * value (fault.c). */
+ * (compile.c). After that values are asked for by their path (access.c), and a default stands in for what is
+ * not written. All faults are collected and reported together, each with file, line, column, key and value
+ * (fault.c). */
 #ifndef PERIGAL_SCENE_H
 #define PERIGAL_SCENE_H
 #include "perigal/base.h"
@@ -34,14 +34,15 @@ typedef enum {
     PG_EXPRESSION  /* a number with unit, or an expression in x y z r angle t (text, compiled by its user) */
 } pg_kind;
 
-/* As a default: the first of the choices, so that the first line of a catalogue is its default entry. */
+/* Value of pg_key.fallback: the default is the first of the choices, so that the first line of a catalogue is
+ * its default entry. */
 #define PG_FIRST_CHOICE "(the first choice)"
 
 /* One key of a scene: a row of a key table. */
 typedef struct {
-    /* Where it stands: "materials.{}.youngs_modulus". */
+    /* Path of the key: "materials.{}.youngs_modulus". */
     const char *path;
-    /* What its value is. */
+    /* Kind of its value. */
     pg_kind     kind;
     /* SI unit in the spelling of udunits ("Pa", "m", "kg/m3", "1"); "m|spacing": multiples of the point
      * spacing are allowed too, resolved by pg_scene_length; NULL where a unit makes no sense. */
@@ -63,7 +64,7 @@ typedef struct {
     const char *doc;
 } pg_key;
 
-/* The keys that a folder brings. */
+/* The keys of a source folder. */
 typedef struct { const char *folder; const pg_key *key; size_t n; } pg_key_table;
 
 /* Keys of the entries of a catalogue. An entry (a material, a criterion, a solver ...) declares its own
@@ -81,14 +82,15 @@ typedef struct {
     const char *(*name) (size_t i);
     /* Keys of entry i; NULL: none. */
     pg_key_tables (*keys) (size_t i);
-    /* Further keys of entry i, which are known below `also` as well; NULL: none. */
+    /* Further keys of entry i, which may also stand below the prefix `also`; NULL: none. */
     pg_key_tables (*keys_twice) (size_t i);
-    /* Prefix of the second place, and its name in the manual: "materials.{}.", "for this material". */
+    /* Prefix of the second path of these keys, and its name in the manual: "materials.{}.", "for this
+     * material". */
     const char *also, *also_doc;
-    /* What is true of entry i, as bits that the catalogue defines (pg_scene_entry_is); NULL: it has none. */
+    /* Flags of entry i, defined by the catalogue (pg_scene_entry_is); NULL: none. */
     unsigned (*flags) (size_t i);
 } pg_key_catalogue;
-/* Is `name` one of "a|b|c"? */
+/* Returns 1: `name` is one of `names` = "a|b|c". */
 int pg_listed (const char *names, const char *name);
 
 /* ---- life cycle ---------------------------------------------------------------------------------------- */
@@ -106,7 +108,7 @@ pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, con
  * geometry may be built: pg_problem_prepare does that and returns all faults. */
 pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set);
 int       pg_scene_partial (const pg_scene *s);
-/* From memory; `name` stands for the file in messages. */
+/* Reads and checks a scene from a text in memory; `name` stands for the file in messages. */
 pg_status pg_scene_parse  (pg_scene **out, const char *text, const char *name);
 /* Reads and checks a scene from memory with overrides as in pg_scene_load_with; name: for messages. */
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
@@ -116,15 +118,16 @@ pg_status pg_scene_parse_like (pg_scene **out, const pg_scene *like, const char 
 void      pg_scene_free   (pg_scene **scene);
 
 /* ---- use: paths are printf formats, e.g. pg_scene_number (s, "cracks[%zu].width", i) ------------------- */
-/* Lets the compiler check the format. */
+/* Declares printf-like functions, so that the compiler checks the path (argument k) against the arguments
+ * from m on. */
 #define PG_PATH(k, m) __attribute__ ((format (printf, k, m)))
 /* 1: all of these flags (pg_key_catalogue.flags) are true of the entry that the key `selector` chooses. */
 int         pg_scene_entry_is (const pg_scene *s, const char *selector, unsigned flags);
-/* Did the user write it? */
+/* Returns 1: the scene gives a value at the path. */
 int         pg_scene_given   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* Line of the file; 0: it is not written there. */
+/* Line of the value in the file; 0: the file does not give it. */
 int         pg_scene_line    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* Is it written, or has it a default? */
+/* Returns 1: the value is given, or has a default. */
 int         pg_scene_has     (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
 /* Number of elements of a list or of names in a map; 1 for a single value, 0: absent. */
 size_t      pg_scene_count   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
@@ -136,7 +139,7 @@ double      pg_scene_number  (const pg_scene *s, const char *path, ...) PG_PATH 
 double      pg_scene_length  (const pg_scene *s, double spacing, const char *path, ...) PG_PATH (3, 4);
 long        pg_scene_integer (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
 int         pg_scene_bool    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* The text; NULL: absent. */
+/* The value as text; NULL: absent. */
 const char *pg_scene_text    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
 /* Writes up to `max` numbers in SI units; returns how many. */
 int         pg_scene_vector  (const pg_scene *s, int max, double *out, const char *path, ...) PG_PATH (4, 5);
@@ -145,15 +148,15 @@ int         pg_scene_vector  (const pg_scene *s, int max, double *out, const cha
 void        pg_scene_fault   (const pg_scene *s, const char *path, const char *format, ...) PG_PATH (3, 4);
 /* PG_OK, or PG_E_SCENE with all faults so far in pg_last_error. */
 pg_status   pg_scene_verdict (const pg_scene *s);
-/* The faults so far shall not stop later checks: pg_scene_verdict fails only when there are more, and then
- * names all of them. */
+/* Lets later checks continue in spite of the errors so far: pg_scene_verdict fails only if there are more,
+ * and then reports all. */
 void        pg_scene_pass    (const pg_scene *s);
 /* As pg_scene_verdict, but fails also for faults that were passed. */
 pg_status   pg_scene_conclude (const pg_scene *s);
 /* PG_E_USAGE from a folder that knows no keys, its message being the last one, becomes a fault of the scene
  * at this key; any other status is returned as it is. */
 pg_status   pg_scene_blame   (const pg_scene *s, const char *key, pg_status status);
-/* The path as given; the text that was read, without overrides. */
+/* Path of the scene's file as given; pg_scene_source: the text that was read, without overrides. */
 const char *pg_scene_file    (const pg_scene *s);
 const char *pg_scene_source  (const pg_scene *s);
 /* The tree that the user wrote, overrides applied, as JSON: maps, lists, numbers without a unit as
@@ -186,14 +189,14 @@ void      pg_scene_files_free (size_t n, pg_named_file **file);
 pg_status pg_unit_parse (double *out, const char *text, const char *unit);
 
 /* ---- columns of tables --------------------------------------------------------------------------------- */
-/* Divides the header of a column, "u_x [mm]" or "u_x (mm)", in place into its name and *unit ("" where
- * there is none; borrowed from `header`). PG_E_SCENE: the bracket does not close, or something follows it;
- * the name is separated all the same. */
+/* Splits the header of a column, "u_x [mm]" or "u_x (mm)", in place into its name and *unit ("" where there
+ * is none; borrowed from `header`). PG_E_SCENE: the bracket does not close, or something follows it; the name
+ * is separated all the same. */
 pg_status pg_column_cut (char *header, const char **unit);
-/* Size of that unit ("": 1) in SI units of `kind`: "m", "m3", "Pa", "1" for a plain number. PG_E_SCENE:
- * unknown, or of another kind. */
+/* Conversion factor of a column's unit ("": 1) to SI units of `kind`: "m", "m3", "Pa", "1" for a plain
+ * number. PG_E_SCENE: unknown, or of another kind. */
 pg_status pg_column_scale (double *scale, const char *unit, const char *kind);
-/* A value of such a column in SI units: 3 at a scale of 1e-3 is exactly 0.003. */
+/* Converts a value of a column to SI units by value * scale: 3 at a scale of 1e-3 is exactly 0.003. */
 double    pg_column_value (double value, double scale);
 
 /* ---- expressions --------------------------------------------------------------------------------------- */
@@ -207,7 +210,7 @@ typedef struct { double x, y, z, r, angle, t; } pg_place;
 pg_status pg_expression_compile (pg_expression **out, const char *text, const char *unit);
 /* The value in SI units; 0 or 1 for a condition. Thread-safe. */
 double    pg_expression_value   (const pg_expression *e, const pg_place *at);
-/* Does this variable ('t', 'x', ...) occur? */
+/* Returns 1: the variable ('t', 'x', ...) occurs in the expression. */
 int       pg_expression_uses    (const pg_expression *e, char variable);
 void      pg_expression_free    (pg_expression **e);
 
@@ -216,7 +219,7 @@ void      pg_expression_free    (pg_expression **e);
 const pg_key *pg_scene_key (size_t k);
 /* Key k of those by which this scene was read; NULL: there are no more. */
 const pg_key *pg_scene_known_key (const pg_scene *s, size_t k);
-/* Writes what is known of a key, given by its full path or last word; PG_E_USAGE: unknown, names the
+/* Writes the documentation of a key, given by its full path or last word; PG_E_USAGE: unknown, names the
  * nearest. */
 pg_status pg_scene_help     (FILE *to, const char *key);
 /* Writes doc/input.md. */

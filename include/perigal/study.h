@@ -16,8 +16,7 @@
 #include <stdio.h>
 
 /* ---- exit codes of programs ------------------------------------------------------------------------- */
-/* What a process ends with, so that the one that started it knows why: numbers of sysexits.h, and 128 +
- * SIGINT. */
+/* Exit codes of processes: numbers of sysexits.h, and 128 + SIGINT. */
 enum { PG_EXIT_DONE = 0, PG_EXIT_USAGE = 64, PG_EXIT_SCENE = 65, PG_EXIT_FAILED = 70,
        PG_EXIT_INTERRUPTED = 130 };
 /* The exit code that belongs to a status. */
@@ -25,10 +24,10 @@ int pg_exit_code (pg_status status);
 
 /* ---- lists of words on a command line --------------------------------------------------------------- */
 enum { PG_LIST_WORDS = 32, PG_LIST_TEXT = 128 };
-/* "1 mm,0.5 mm" cut at its commas. given = 0: the user named no list, and defaults may be
- * filled in. */
+/* A list such as "1 mm,0.5 mm", split at its commas. given = 0: the user gave no list, defaults may be filled
+ * in. */
 typedef struct { int given; size_t n; char word[PG_LIST_WORDS][PG_LIST_TEXT]; } pg_word_list;
-/* Cuts a text; returns 0 for too many words, or for one that is empty or too long. */
+/* Splits a text at its commas; returns 0 for too many words, or for one that is empty or too long. */
 int pg_word_list_split (pg_word_list *out, const char *text);
 
 /* ---- a trial: one run, measured --------------------------------------------------------------------- */
@@ -47,7 +46,7 @@ enum {
 #undef X
     PG_TRIAL_COUNT };
 extern const char *const pg_trial_name[PG_TRIAL_COUNT], *const pg_trial_unit[PG_TRIAL_COUNT];
-/* What one run measured; NAN where a number is not known or the scene has no such reference.
+/* Measurements of one run; NAN where a number is not known or the scene has no such reference.
  *
  *   l2, energy, maximum   relative errors against the reference of the scene over the body (pg_norms)
  *   lines                 root of the summed squares of the differences over that of its tables
@@ -69,8 +68,8 @@ typedef struct {
  * pg_trial_measure and pg_trial_write, as the program perigal does. PG_E_SCENE: a combination
  * of keys that is not possible; the message says what went wrong. */
 pg_status pg_trial_run  (pg_trial *out, const pg_trial_request *q);
-/* What that new process does: builds, solves, leaves the results in `folder` and measures.
- * start: pg_seconds when the process began. */
+/* Runs a trial in the new process: builds, solves, leaves the results in `folder` and measures. start:
+ * pg_seconds when the process began. */
 pg_status pg_trial_measure (pg_trial *out, const pg_scene *scene, const char *folder, int threads,
                             double start);
 /* Measures a finite element result, in a file that pg_mesh_result reads, against the reference of the scene
@@ -111,7 +110,7 @@ typedef struct {
     const char *scene, *folder, *set[PG_TRIAL_SETS / 2];
     /* Number of replaced values, and of spacings, the scene's own being the first. */
     size_t      nset, sizes;
-    /* Of a spacing to the next smaller one. */
+    /* Ratio of a spacing to the next smaller one. */
     double      ratio;
     /* Horizons in spacings, a study for each; nhorizon = 0: that of the scene. */
     double      horizon[PG_CONVERGE_STUDIES];
@@ -126,8 +125,8 @@ pg_status pg_converge_run (pg_converge_request *q);
 
 /* ---- many runs of one scene ------------------------------------------------------------------------- */
 enum { PG_SERIES_SETS = 8, PG_SERIES_RUNS = 1000 };
-/* One of them: the name of its folder, the values of the scene that are its own, "key=value" (borrowed),
- * and a number that stands for it in tables. */
+/* One run of a series: the name of its folder, its own values of the scene, "key=value" (borrowed), and a
+ * number that identifies it in tables. */
 typedef struct { char name[96]; size_t nset; const char *set[PG_SERIES_SETS]; double value; } pg_series_run;
 /* Runs that share a scene and some of its values. */
 typedef struct {
@@ -141,33 +140,34 @@ typedef struct {
     /* How many signals have asked to stop, as the caller's handler counts them; NULL: none can. The runs
      * are asked to stop as often, so that the first one lets them write checkpoints. */
     const volatile sig_atomic_t *stop;
-    /* Called as a run has ended; a status that is not PG_OK ends the series. NULL: nothing is called. */
+    /* Called when run k has ended; a status that is not PG_OK ends the series. NULL: nothing is called. */
     pg_status (*ended) (void *context, size_t k);
     void       *context;
     /* A line for each run as it ends; NULL: quiet. */
     FILE       *out;
 } pg_series_request;
-/* What a run left, NAN where it is not known: peak of the curve of report.json (N) and the displacement
- * there (m), energy dissipated (J), bonds broken, seconds. code: how it ended, -1: it has not begun;
- * trouble: why, if it failed. again: 1: it was there already, or went on. */
+/* Result of a run, NAN where not known: peak of the curve of report.json (N) and the displacement there (m),
+ * energy dissipated (J), bonds broken, seconds. code: how it ended, -1: it has not begun; trouble: why, if it
+ * failed. again: 1: it was there already, or went on. */
 typedef struct {
     double peak, displacement, dissipated, broken, seconds;
     int    code, again;
     char   trouble[400];
 } pg_series_result;
-/* Runs them in folder/name each, in processes of this same program. What is finished is not repeated, what
- * was interrupted goes on from its checkpoint, what failed begins anew. A run that fails ends only itself,
- * with its exit code; PG_EXIT_USAGE: its folder holds a finished run of another scene. PG_E_INTERRUPTED. */
+/* Runs all in folder/name each, in processes of this same program. Finished runs are not repeated,
+ * interrupted ones continue from their checkpoints, failed ones begin anew. A run that fails ends only
+ * itself, with its exit code; PG_EXIT_USAGE: its folder holds a finished run of another scene.
+ * PG_E_INTERRUPTED. */
 pg_status pg_series_run_all (pg_series_result *out /* n */, const pg_series_request *q);
-/* What folder/name holds: 1: a finished run of the scene with these values; 0: none; -1: a finished run of
- * another scene or of other values. PG_E_SCENE: the scene is wrong. */
+/* Finds what is in folder/name: 1: a finished run of the scene with these values; 0: none; -1: a finished run
+ * of another scene or of other values. PG_E_SCENE: the scene is wrong. */
 pg_status pg_series_look (int *out, const pg_series_request *q, const pg_series_run *run);
 /* Passes every run that is not finished and has no checkpoint through `perigal check`, as many at a time as
  * may run. PG_E_SCENE, PG_E_LIMIT ...: what is wrong, and with which of them. */
 pg_status pg_series_check (const pg_series_request *q);
 
-/* Mean, standard deviation (n - 1), least, median and largest of those of n values that are finite, which
- * are left in rising order; NAN where there are too few. */
+/* Statistics: mean, standard deviation (n - 1), least, median and largest of those of n values that are
+ * finite, which are left in rising order; NAN where there are too few. */
 typedef struct { size_t n; double mean, deviation, least, median, most; } pg_spread;
 void pg_spread_of (pg_spread *out, size_t n, double *value);
 
@@ -257,7 +257,7 @@ void      pg_comparison_clear (pg_comparison *c);
 
 /* ---- the first bond to break ------------------------------------------------------------------------ */
 enum { PG_FIRST_TIPS = 16 };
-/* What a front of a crack in space bears under the full load. */
+/* Measurements at a front of a 3D crack under the full load. */
 typedef struct {
     long   id;
     int    closed;                                     /* a loop */
@@ -267,8 +267,7 @@ typedef struct {
      * Pa m^(1/2). NAN: nothing was measured. */
     double J[3], x[3], K[3][2];
 } pg_first_front;
-/* What one solve at load factor 1, in which nothing may break, and then the criterion say
- * about the first break. */
+/* Prediction of the first break by one solve at load factor 1 without breaking, followed by the criterion. */
 typedef struct {
     /* solved = 1: the fields below hold, which needs a static scene. proportional: all loads
      * grow with the load factor. */
@@ -285,16 +284,16 @@ typedef struct {
     /* Relative residual of the solve, and largest displacement, m. */
     double residual, displacement;
     /* Criteria of tips: 1: `factor` is that of the first facet, from where to where (m), and the number of
-     * the tip that it moves (0: a new crack); 0: none in the steps of the scene. In space the number of the
-     * front, and to where the vertex has come that went farthest. */
+     * the tip that it moves (0: a new crack); 0: none in the steps of the scene. 3D: the number of the front,
+     * and the new position of the vertex that advanced most. */
     int    grows;
     double from[3], to[3];
     long   grown;
-    /* The fronts of cracks in space, the first PG_FIRST_TIPS of nfront. */
+    /* The fronts of 3D cracks, the first PG_FIRST_TIPS of nfront. */
     size_t         nfront;
     pg_first_front front[PG_FIRST_TIPS];
-    /* The open tips of cracks in the plane: how many there are, their numbers, and what is measured of the
-     * first of them. refused: why it is not; else NULL. */
+    /* The open tips of 2D cracks: their number, ids, and measurements at the first PG_FIRST_TIPS. refused:
+     * why these are missing, else NULL. */
     size_t       ntip;
     long         id[PG_FIRST_TIPS];
     pg_tip_field tip[PG_FIRST_TIPS];

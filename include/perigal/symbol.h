@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * symbol.h: plane waves of the infinite lattice that a scene would have inside its body. With
- * displacements u_j = U exp (i k.x_j) the force on every point is - S (k) U exp (i k.x_j),
- * where
+ * symbol.h: plane waves of the infinite lattice of the points in the interior of a body. With displacements
+ * u_j = U exp (i k.x_j) the force on every point is - S (k) U exp (i k.x_j), where
  *
  *   S (k) = sum_j K_0j exp (i k.(x_j - x_0))
  *
- * is the symbol of the stiffness: a Hermitian m x m matrix, m being the number of unknowns of
- * a point (its displacement, then for points with rotations the spacing h times the rotation).
- * Its eigenvalues say which motions meet a resistance, and S U = omega^2 M U gives the
- * dispersion of waves (doc/method.md, D4).
+ * is the symbol of the stiffness: a Hermitian m x m matrix, m being the number of unknowns of a point (its
+ * displacement, then for points with rotations the spacing h times the rotation). Its eigenvalues say which
+ * motions meet a resistance, and S U = omega^2 M U gives the dispersion of waves (doc/method.md, D4).
  *
- * K_0j is not taken from a formula. It is what the force model of the scene answers in a box
- * with the scene's first material, spacing and method, when its middle point moves; so the
- * analysis holds for every force, approximation and integration in the library. The largest
- * frequency of a real body with its boundary is found by pg_solver_fastest instead. */
+ * K_0j is not taken from a formula. It is what the force model of the scene answers in a box with the scene's
+ * first material, spacing and method, when its middle point moves; so the analysis holds for every force,
+ * approximation and integration in the library. The largest frequency of a real body with its boundary is
+ * found by pg_solver_fastest instead. */
 #ifndef PERIGAL_SYMBOL_H
 #define PERIGAL_SYMBOL_H
 #include "perigal/force.h"
@@ -21,7 +19,7 @@
 PG_API_BEGIN
 
 /* Largest number of unknowns of a point: three displacements and three rotations. */
-enum { PG_UNKNOWNS = 6 };                              /* of a point at most */
+enum { PG_UNKNOWNS = 6 };
 /* The measured blocks of an infinite lattice. */
 typedef struct {
     /* Dimension; m, the unknowns of a point; threads to use. */
@@ -88,8 +86,8 @@ double    pg_symbol_amplitude (const pg_symbol *symbol, const double *k);
  * of S U = omega^2 M U, rad/s, where a growing motion (omega^2 < 0) is given as - |omega|.
  * Values that are only rounding of the blocks are 0. */
 void      pg_symbol_solve  (const pg_symbol *symbol, const double *k, int weighted, pg_symbol_modes *out);
-/* The tangent stiffness that long waves see, Pa (Voigt, nv x nv): uniform strain, with the
- * rotations in equilibrium. NAN where rotations are not stable. */
+/* Computes the tangent stiffness for long waves, Pa (Voigt, nv x nv): uniform strain, with the rotations in
+ * equilibrium. NAN where rotations are not stable. */
 void      pg_symbol_tangent (const pg_symbol *symbol, double *D);
 
 /* ---- survey -------------------------------------------------------------------------------------------- */
@@ -97,14 +95,14 @@ void      pg_symbol_tangent (const pg_symbol *symbol, double *D);
 typedef struct {
     /* Wave vector, rad/m. */
     double k[3];
-    /* Its value; which one is said where it is used. */
+    /* The value (eigenvalue, ratio or frequency: see pg_survey). */
     double value;
     /* Shares of rotations, and of displacement along k, in the motion (pg_symbol_modes), 0 to 1. */
     double turning, along;
     /* Number of modes with this value at this k. */
     int    alike;
 } pg_motion;
-/* What a sampling of all wave vectors shows. "Eigenvalue" is that of S h^2 / (E V). */
+/* Results of a sampling of all wave vectors. "Eigenvalue" is that of S h^2 / (E V). */
 typedef struct {
     /* Wave vectors along an axis of the whole Brillouin zone, 0 and pi / step among them. */
     int       grid;

@@ -12,7 +12,7 @@ static inline double pg_dot (size_t n, const double *a, const double *b)
     return sum;
 }
 static inline double pg_size (size_t n, const double *a) { return sqrt (pg_dot (n, a, a)); }
-static inline double pg_distance2 (size_t n, const double *a, const double *b)   /* its square */
+static inline double pg_distance2 (size_t n, const double *a, const double *b)   /* squared distance */
 {
     double sum = 0;
     for (size_t k = 0; k < n; k++) sum += (a[k] - b[k]) * (a[k] - b[k]);
@@ -26,7 +26,7 @@ static inline double pg_dot3 (const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-/* Lengths that neither overflow nor vanish on the way. */
+/* Lengths computed without overflow or underflow of squares. */
 static inline double pg_size3 (const double *a) { return hypot (hypot (a[0], a[1]), a[2]); }
 static inline double pg_distance3 (const double *a, const double *b)
 {
@@ -44,7 +44,7 @@ static inline void pg_shift3 (const double *x, const double *e, double d, double
 {
     for (int k = 0; k < 3; k++) out[k] = x[k] + d * e[k];
 }
-/* Scales to length 1; 0: of no length, and left alone. */
+/* Scales a vector to length 1; returns 0 if its length is 0 (unchanged). */
 static inline int pg_unit3 (double *a)
 {
     double s = pg_size3 (a);
