@@ -78,7 +78,7 @@ typedef struct {
     /* Global number of each point, in the list of all points of the body (from 0, in the order of the
      * lattice); equal on all ranks that store it (n). */
     int64_t *number;
-    int64_t  total;                                    /* points of the body */
+    int64_t  total;                                    /* number of points of the body */
     pg_halo  halo;
     double   width;                                    /* width of the layer of ghosts, m */
     /* Lattices only: sites that this rank owns, and all that it stores. */
