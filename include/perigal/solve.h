@@ -163,7 +163,7 @@ typedef struct {
  * duration of motions, s, and the largest jump of a reaction at the beginning or end of a motion, over the
  * largest reaction. */
 typedef struct { long count, steps; double time, jump; } pg_instabilities;
-typedef struct {                                       /* of the run so far */
+typedef struct {                                       /* statistics of the run so far */
     long   steps, events, iterations, broken, bonds_over_limit;
     size_t degenerate_points, isolated_nodes, fragments, unended_cells;
     double degenerate_at[3];                           /* position of the first degenerate point, m */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The alive mask, state->alive: one byte per bond of all bond sets, 1: alive, 0: broken. Bond number
  * first_bond[set] + e is entry e of the neighbour lists of that set (bonds.c). Breaking a bond clears its
- * byte and nothing else; forces bring their caches in line afterwards (refresh). Damage is the share of
- * cleared bytes of a point. */
+ * byte and nothing else; forces update their caches afterwards (refresh). The damage of a point is the
+ * fraction of its bytes that are 0. */
 #include "model.h"
 #include <string.h>
 
@@ -21,8 +21,8 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
     *point = lo;
 }
 
-/* Is every crack farther from point q than its bonds are long? Bonds between points of one spacing end within
- * the horizon and half a spacing: twice the horizon, which is a spacing at least, is more. 0: not known. */
+/* Returns 1: no crack is as near to point q as its bonds reach; 0: not known. With equal spacings bonds are
+ * shorter than the horizon plus half a spacing; twice the horizon (at least a spacing) is an upper bound. */
 static int far_from_cracks (const pg_problem *p, const pg_rows *rows, size_t q)
 {
     double low[3], high[3];
@@ -35,11 +35,11 @@ static int far_from_cracks (const pg_problem *p, const pg_rows *rows, size_t q)
            && !pg_cracks_near (&p->crack.slots, low, high);
 }
 
-/* Can a crack cut any bond of point q? The box about its bonds tells, which spares most points of a body the
- * look at each of their bonds. */
+/* Returns 0: by the bounding box of its bonds, no crack can cut a bond of point q. Saves most points of a
+ * body the test of every bond. */
 static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 {
-    double low[3], high[3], slack = 10 * pg_cloud_same (&p->cloud); /* more than the tolerance of a cut */
+    double low[3], high[3], slack = 10 * pg_cloud_same (&p->cloud); /* larger than the tolerance of a cut */
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
     size_t dim = (size_t) p->dim;
     if (cracks->n + p->crack.slots.n == 0 || far_from_cracks (p, rows, q)) return 0;
@@ -60,8 +60,8 @@ int pg_bond_cut_first (const pg_problem *p, const double *x, const double *y)
            || pg_cracks_cut (&p->crack.slots, x, y, tolerance);
 }
 
-/* The mask at the start of a run: 0 where the segment of a bond meets a pre-crack. The bond of a point with
- * itself is never cut. */
+/* The initial alive mask of point q: 0 where the segment of a bond meets a pre-crack. The bond of a point
+ * with itself is never cut. */
 void pg_bonds_cut_at (const pg_problem *p, int set, size_t q, unsigned char *alive)
 {
     const pg_rows *rows = &p->bonds.rows[set];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A problem without its loads, supports and cracks, of one material: what is left is the discretisation, with
- * a load on its whole surface. */
+ * The bare problem of the patch test: the discretisation without loads, supports and cracks, of one material,
+ * with a load on its whole surface. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 
-/* The material whose dilatation is the hardest to carry: the largest Poisson's ratio. One without a ratio
+/* Returns the material with the largest Poisson's ratio (the most prone to locking). One without a ratio
  * (NAN: anisotropic) is taken as the hardest. */
 static const pg_material *stiffest (const pg_problem *p)
 {
@@ -41,8 +41,8 @@ done:
     return status;
 }
 
-/* Nodes and evaluation points with the supports that they have without the cracks: wider ones show the intact
- * body so evenly that it may be soft in modes that the cracked one has not. */
+/* Remakes nodes and evaluation points with the supports of the uncracked body: the supports widened at cracks
+ * would make the intact body soft in modes that the cracked body does not have. */
 static pg_status make_uncracked (pg_problem *out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -67,7 +67,7 @@ done:
     return status;
 }
 
-/* A traction of no size: it says which facets there are, and how deep below them points bear it. */
+/* Adds a traction of value zero that defines the loaded facets and the depth of the points that carry it. */
 static pg_status make_load (pg_problem *out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -93,10 +93,10 @@ done:
     return status;
 }
 
-/* Copies the struct and replaces what it does not share. Shared are cloud, cells, body and, unless cracks
- * have made supports wider, the bonds of points; its own are the points on facets, the marks of bonds (none
- * broken), one load, one material and one criterion. Whoever frees it must use pg_problem_bare_free:
- * pg_problem_free would take the shared parts along. */
+/* Copies the struct and replaces what is not shared. Shared are cloud, cells, body and, unless supports are
+ * widened at cracks, the bonds of points; its own are facet points, block and exempt marks, one load, one
+ * material and one criterion. It must be freed by pg_problem_bare_free: pg_problem_free would also free the
+ * shared parts. */
 pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -119,7 +119,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     *b->material = *stiffest (p);
     PG_ALLOC (b->criterion, 1);
     b->at.law = b->material, b->at.limit = b->criterion;
-    /* patches of the dilatation know the nodes of points */
+    /* not with patches of the dilatation, which refer to the old neighbours */
     if (p->bonds.wide_at_cracks && !p->form.patches) PG_TRY (make_uncracked (b, p));
     if (p->method->shape_functions) PG_TRY (make_surface (b, p));
     else b->bonds.rows[PG_FACETS] = p->bonds.rows[PG_FACETS];
@@ -133,7 +133,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     }
     PG_ALLOC (b->quality.borne, p->cells.nfacet);
     if (p->bonds.spacing[PG_FACETS]) PG_ALLOC (b->bonds.spacing[PG_FACETS], b->bonds.rows[PG_FACETS].n);
-    /* A point of a facet counts lengths in the spacing of the nearest point of the cloud that it sees. */
+    /* The local spacing of a facet point is that of its nearest neighbour. */
     for (size_t q = 0; b->bonds.spacing[PG_FACETS] && q < b->bonds.rows[PG_FACETS].n; q++) {
         int nearest = pg_bonds_nearest (b, PG_FACETS, q);
         b->bonds.spacing[PG_FACETS][q] = nearest < 0 ? p->cloud.h : p->cloud.size[nearest];
@@ -143,7 +143,7 @@ done:
     return status;
 }
 
-/* Only what is its own: the facets' points, bond marks, the one load with its set, the one material. */
+/* Frees only what is not shared: facet points, marks of points, the load with its set, the material. */
 void pg_problem_bare_free (pg_problem **bare)
 {
     pg_problem *b = *bare;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which material every point is made of: the last entry of `blocks` that claims it. A condition holds or not
- * at the point itself, so that an interface along edges of cells is exact; a block number of the points' file
+ * Material of every point: that of the last entry of `blocks` that applies to it. A condition is evaluated at
+ * the point itself, so that an interface along edges of cells is exact; a block number of the points' file
  * goes with the nearest node, a block of a mesh with the element itself (a node between blocks belongs to the
  * first of them). */
 #include "model.h"
@@ -10,9 +10,9 @@
 #include <string.h>
 
 typedef struct {
-    pg_expression *where;                              /* NULL: by number */
+    pg_expression *where;                              /* condition; NULL: selects by block number */
     int    number, material;
-    size_t claimed;  /* points at which it holds, overridden ones included */
+    size_t claimed;  /* points to which it applies, overridden ones included */
 } entry;
 typedef struct { size_t n; entry *entry; } entries;
 
@@ -27,8 +27,8 @@ static void clear (entries *e)
 }
 
 /* ---- the list ------------------------------------------------------------------------------------------ */
-/* The number of the block that `block` names: by name or number in a mesh, by number in a file of points;
- * -1 with a fault. */
+/* Block number given by the key `block`: a name or number in a mesh, a number in a file of points; -1: error
+ * reported. */
 static int block_named (const pg_problem *p, const pg_scene *scene, const char *path)
 {
     const char *text = pg_scene_text (scene, "%s", path);
@@ -49,7 +49,7 @@ static int block_named (const pg_problem *p, const pg_scene *scene, const char *
     return -1;
 }
 
-/* Entry k of `blocks`: a condition, or a block number of the points' file or mesh, and its material. */
+/* Reads entry k of `blocks`: a condition, or a block number of the points' file or mesh, and its material. */
 static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scene, size_t k)
 {
     pg_status status = PG_OK;
@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* In the order of the scene: later ones win. */
+/* Reads all entries in the order of the scene; later ones override earlier ones. */
 static pg_status read_entries (entries *out, const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -81,8 +81,8 @@ done:
     return status;
 }
 
-/* What can be said before there are bonds, so that faults of this section are told beside those of
- * others. */
+/* Checks `blocks` before bonds are built, so that its errors are reported together with those of other
+ * sections. */
 pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
 {
     entries e = { 0 };
@@ -92,8 +92,9 @@ pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- claims -------------------------------------------------------------------------------------------- */
-/* Where a point is judged by conditions: a point on the boundary is looked at a hair inside its cell, of
- * a cut one inside the surface, as rounding must not take it out of the body. */
+/* Position at which conditions and expressions are evaluated for a point: boundary points are moved slightly
+ * inside their cell (or, on a cut facet, inside the surface), so that rounding cannot place them outside the
+ * body. */
 void pg_blocks_place (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
@@ -115,8 +116,8 @@ void pg_blocks_place (const pg_problem *p, int set, size_t point, double *x)
     }
 }
 
-/* Block number of a point: its own, that of its element, or that of the nearest node; -1: it sees no
- * node. */
+/* Block number of a point: its own, that of its element, or that of the nearest node; -1: it has no
+ * neighbours. */
 static int number_of (const pg_problem *p, int set, size_t point)
 {
     int cell = p->part.mesh.n && set != PG_NODES ? p->bonds.rows[set].cell[point] : -1;
@@ -125,7 +126,7 @@ static int number_of (const pg_problem *p, int set, size_t point)
     return node < 0 ? -1 : p->cloud.block[node];
 }
 
-/* Material of one point, -1: no entry claims it. */
+/* Material of one point, -1: no entry applies to it. */
 static int claim (entries *e, const pg_problem *p, int set, size_t point)
 {
     double x[3] = { 0 };
@@ -141,7 +142,8 @@ static int claim (entries *e, const pg_problem *p, int set, size_t point)
     return found;
 }
 
-/* Faults that `count` points of a set are claimed by no entry of blocks; names the first of them, `point`. */
+/* Reports the error that no entry of blocks applies to `count` points of a set, the first of which is
+ * `point`. */
 static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set, size_t point, size_t count)
 {
     char place[96];
@@ -153,8 +155,8 @@ static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set,
                     p->bonds.rows[set].n, kind_of_points[set], place);
 }
 
-/* Materials of all points: the last entry that claims a point decides. Entries that claim nothing, on any
- * rank, are faults, as they are written in vain. */
+/* Sets the materials of all points: the last applicable entry decides. Entries that apply to no point, on any
+ * rank, are errors. */
 static pg_status claim_all (entries *e, pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -179,7 +181,7 @@ done:
     return status;
 }
 
-/* Without a list the blocks of a mesh have the names of their materials. */
+/* Without `blocks`: the blocks of a mesh bear the names of their materials. */
 static void by_name (pg_problem *p, const pg_scene *scene)
 {
     const pg_mesh *m = &p->part.mesh;
@@ -200,8 +202,8 @@ static void by_name (pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* Without a list the block column of the points' file counts the materials; points of other sets follow
- * their nearest node. */
+/* Without `blocks`: the block column of the points' file is the index of the material; other points take that
+ * of their nearest node. */
 static void by_number (pg_problem *p, const pg_scene *scene)
 {
     if (p->part.mesh.n) {
@@ -221,7 +223,7 @@ static void by_number (pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* A material that no point has is a fault: it was meant for something. */
+/* Reports materials that no point has as errors. */
 static pg_status check_used (const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -238,8 +240,8 @@ done:
     return status;
 }
 
-/* Materials of nodes, points of evaluation and boundary points alike. With one material and no list there
- * is nothing to do; with several the list is needed, or blocks of the mesh or file. */
+/* Sets the materials of nodes, evaluation points and boundary points. With several materials `blocks` is
+ * needed, or blocks of the mesh or file of points. */
 pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

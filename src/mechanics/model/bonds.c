@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Points between the nodes belong to the rank that has their cell, of facets the cell behind them. Their
- * number: that of the cell in the whole body, then their place among the points of the cell, or of its
- * facets, which all ranks list alike. */
+/* Finds owner and global number of evaluation points and facet points: owned by the rank of their cell (of a
+ * facet the cell behind it); number = (number of the cell in the whole body) * PLACES + index among the
+ * points of the cell. */
 enum { PLACES = 4096 };
 static pg_status number_points (const pg_problem *p, int set, unsigned char *owned, int64_t *out)
 {
@@ -39,7 +39,7 @@ done:
     return status;
 }
 
-/* Of ranks that share the body: which points of a set each owns, and their numbers. */
+/* Parallel runs: finds which points of a set this rank owns, and their global numbers. */
 static pg_status number_held (pg_problem *p, int set)
 {
     pg_status status = PG_OK;
@@ -57,14 +57,14 @@ done:
     return status;
 }
 
-/* Of a node that of the whole body. */
+/* Number of a point for messages: for a node its global number. */
 static size_t number_of (const pg_problem *p, int set, size_t point)
 {
     return set == PG_NODES && p->bonds.held[set].number ? (size_t) p->bonds.held[set].number[point] : point;
 }
 
-/* Places that see too little although their supports are as wide as may be: those of this rank are told, the
- * first by its coordinates. owned: NULL: all are. */
+/* Warns of points with too few neighbours even with the widest supports: number of those owned by this rank,
+ * coordinates of the first. owned NULL: all are. */
 static void tell_blind (pg_problem *p, const char *what, const pg_rows *r, const pg_widened *w,
                         const unsigned char *owned)
 {
@@ -83,10 +83,10 @@ static void tell_blind (pg_problem *p, const char *what, const pg_rows *r, const
                          own, what, own == 1 ? "" : "s", at, own == 1 ? "s" : "", PG_WIDEST_SUPPORT);
 }
 
-/* Places of a set, and which of them are so near to a crack that it may hide a node. */
+/* Points of a set; near: 1: a crack is so near that it may lie between the point and a node (n). */
 typedef struct { const pg_problem *p; const pg_rows *rows; unsigned char *near; } looking;
 
-/* Does a bond between place and node live when the run begins? */
+/* Returns 1: no crack or slot cuts the bond from point `place` to a node at the start of the run. */
 static int sees (void *context, size_t place, int node)
 {
     const looking *l = context;
@@ -95,7 +95,7 @@ static int sees (void *context, size_t place, int node)
            || !pg_bond_cut_first (l->p, l->rows->x + place * dim, l->p->cloud.x + (size_t) node * dim);
 }
 
-/* The places whose supports, however wide, end at a crack. */
+/* Finds the points whose widest supports reach a crack. */
 static pg_status find_near (looking *l)
 {
     pg_status status = PG_OK;
@@ -117,7 +117,7 @@ done:
     return status;
 }
 
-/* Does a crack hide a node of a place? */
+/* Returns 1: a crack or slot cuts a bond of point q. */
 static int is_beside (looking *l, size_t q)
 {
     const pg_family *f = &l->rows->family;
@@ -126,7 +126,7 @@ static int is_beside (looking *l, size_t q)
     return 0;
 }
 
-/* Is a support wider that ends at a crack? On ranks that share the body: on any of them. */
+/* Sets wide_at_cracks if, on any rank, the support of a point with bonds cut by a crack has been widened. */
 static pg_status note_wide (pg_problem *p, looking *l)
 {
     pg_status status = PG_OK;
@@ -139,9 +139,9 @@ done:
     return status;
 }
 
-/* Wider supports for the places of a set that see too little, whether the body ends there or a crack runs
- * by. Of those inside that still see too little beside a crack the run tells, as of those beside cracks that
- * have grown. */
+/* Widens the supports of points of a set with too few neighbours, at the surface or beside a crack. Warns of
+ * points that still have too few, except for nodes and evaluation points beside cracks, which are reported
+ * during the run. */
 static pg_status widen (pg_problem *p, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
@@ -163,9 +163,8 @@ done:
     return status;
 }
 
-/* Points that are no lattice: every point of the whole body must see enough others, and these not too
- * flat a set, to carry a strain. Moments are evaluated once for the grades of linear shape functions, which
- * all others fall back on; the first point with none is a fault that says where it is. */
+/* Points without a lattice: checks that every point has enough neighbours, which span the space, for a
+ * strain, by the grades of linear shape functions; reports the first point without as an error. */
 static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
@@ -175,7 +174,7 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
     char at[100];
     linear.order = 1;
     if (p->lattice.dim) return PG_OK;
-    PG_ALLOC (r->grade, r->n);                         /* for this check only: the problem keeps geometry */
+    PG_ALLOC (r->grade, r->n);                         /* freed after this check */
     if (r->n)
         PG_TRY (linear.type->evaluate (&linear, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n && status == PG_OK; q++) {
@@ -200,8 +199,7 @@ done:
     return status;
 }
 
-/* Nodes see each other through the shape functions at their own places; `own`: the node that a point is
- * itself. */
+/* Makes the bond set PG_NODES: shape functions at the nodes themselves. */
 static pg_status make_nodes (pg_problem *p, const pg_family_search *search, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -218,15 +216,15 @@ done:
     return status;
 }
 
-/* Points per direction of a cell: as many as the basis needs between two nodes; an element with middle
- * nodes spans two such steps. At most 5, the highest rule there is. */
+/* Gauss points per direction of a cell: as many as the basis needs between two nodes; an element with
+ * mid-edge nodes spans two such steps. */
 static int quadrature_order (const pg_problem *p)
 {
     /* at most 5, the highest rule there is */
     return p->form.approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;
 }
 
-/* Points per direction of a cell: as the scene says, else what the basis needs. */
+/* Gauss points per direction of a cell: as given in the scene, else as the basis needs. */
 static int gauss_order (const pg_problem *p, const pg_scene *scene)
 {
     return pg_scene_given (scene, "method.gauss_points")
@@ -234,21 +232,20 @@ static int gauss_order (const pg_problem *p, const pg_scene *scene)
                : quadrature_order (p);
 }
 
-/* Points per direction of a facet: on a cut surface as fine as in the cells, since linear fields balance
- * only then. */
+/* Gauss points per direction of a facet: with cut cells at least as many as in the cells, as linear fields
+ * are in equilibrium only then. */
 static int facet_order (const pg_problem *p, const pg_scene *scene)
 {
     int order = quadrature_order (p), fine = gauss_order (p, scene);
     return p->cells.cut && fine > order ? fine : order;
 }
 
-/* Points of evaluation with their weights (m^3), and the cells of consistent integration. Its cut cells
- * have at least three points a direction: with two the identity amplifies the error of thin pieces. */
+/* Makes the bond set PG_POINTS with weights (m^3), and the tables of consistent integration. */
 static pg_status make_points (pg_problem *p, const pg_family_search *search, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    /* with 2 the identity amplifies the error of thin pieces */
+    /* at least 3 per direction: with 2 the divergence identity amplifies the error of thin pieces */
     p->cells.cut_order = p->form.integration->consistent ? 3 : 0;
     if (!p->form.integration->at_nodes)
         PG_TRY (p->form.integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
@@ -266,7 +263,8 @@ done:
     return status;
 }
 
-/* Points with weights (m^2) and outward normals, on those facets only that a load or support needs. */
+/* Makes the bond set PG_FACETS with weights (m^2) and outward normals, on facets with a load or support
+ * only. */
 static pg_status make_facets (pg_problem *p, const pg_family_search *search, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -304,7 +302,7 @@ done:
     return status;
 }
 
-/* Squared distance of a place and a node, m^2. */
+/* Squared distance between x and a node, m^2. */
 static double distance2 (const pg_problem *p, const double *x, int node)
 {
     double s = 0;
@@ -327,8 +325,8 @@ int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
     return nearest;
 }
 
-/* Local spacing at every point of every set, m: that of its nearest node. Only where spacings differ;
- * else one number serves all. */
+/* Sets the local spacing of every point of every set, m: that of its nearest node; only if spacings
+ * differ. */
 static pg_status measure_spacing (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -349,7 +347,8 @@ double pg_problem_spacing (const pg_problem *p, int set, size_t point)
     return p->bonds.spacing[set] ? p->bonds.spacing[set][point] : p->cloud.h;
 }
 
-/* A point of evaluation on a node has a bond of no length there, whose stretch means nothing. */
+/* 1: bond e of the point has zero length (an evaluation point on a node), so that its stretch is
+ * undefined. */
 int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
 {
     const pg_rows *r = &p->bonds.rows[set];
@@ -358,8 +357,8 @@ int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
     return j == r->own[point] || distance2 (p, r->x + point * (size_t) p->dim, j) <= least * least;
 }
 
-/* Which points' bonds never break. A node of an excluded set exempts its bonds; another point follows its
- * nearest node. A material that never breaks exempts its points. */
+/* Marks points whose bonds never break: nodes of excluded sets, other points like their nearest node. A
+ * material that never breaks exempts its points. */
 static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -388,8 +387,8 @@ done:
     return status;
 }
 
-/* Bonds between the points themselves, as pg_sums has them; the sets of evaluation points and facets are
- * empty. */
+/* Makes the bonds of forces without shape functions: point to point, from pg_sums; sets of evaluation points
+ * and facets are empty. */
 static pg_status make_point_bonds (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -412,8 +411,8 @@ done:
     return status;
 }
 
-/* Without shape functions a point without a bond bears nothing: it would fly off, or leave K singular.
- * The first one is a fault, with its place and its own horizon. */
+/* Forces without shape functions: reports the first point without bonds as an error, as K would be
+ * singular. */
 static pg_status check_company (const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -432,8 +431,8 @@ static pg_status check_company (const pg_problem *p, const pg_scene *scene)
     return pg_ranks_agree (status);
 }
 
-/* Counts the points on a pre-crack, which lose their bonds to both sides. Of the first crack that has
- * some the warning says how the rows of points would leave it: by half a step across it. */
+/* Counts the points on pre-cracks, which lose their bonds to both sides. The warning suggests a shift of the
+ * lattice by half a step across the first such crack. */
 static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -493,7 +492,7 @@ done:
     return status;
 }
 
-/* Points of a file bring their volumes: how much they are together, beside what the box around them holds. */
+/* Notes, for points of a file, their total volume and its ratio to that of their bounding box. */
 static pg_status note_volume (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -510,7 +509,7 @@ done:
     return status;
 }
 
-/* Of points of a file their place in it, of a lattice their site, counted through empty ones as well. */
+/* Numbers nodes by their line in the file of points, or by their lattice site (empty sites counted). */
 static void number_nodes (const pg_problem *p, int64_t *out)
 {
     const pg_cloud *c = &p->cloud;
@@ -544,7 +543,8 @@ done:
     return status;
 }
 
-/* Rows of all bond sets, then what needs them: spacings, blocks, dilatation, exempt points. */
+/* Builds the rows of all bond sets, and what depends on them: spacings, blocks, laws, dilatation, exempt
+ * points. */
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks that grow in a state: their geometry changes on a copy (crack_paths.c, crack_surfaces.c), which
- * takes its place when all has gone well, and the bonds that the new pieces cut are found, facets in the
- * plane and triangles in space. Only the new ones are asked, through an index of their own
- * (geometry/cloud/body/crack_index.c): first the box of all of them, then for each point the boxes near it,
- * then its bonds. */
+ * Growth of the cracks of a state: the geometry is changed on a copy (crack_paths.c, crack_surfaces.c), which
+ * replaces the original on success, and the bonds cut by new pieces (2D facets, 3D triangles) are found. The
+ * search tests new pieces only, by their own index (geometry/cloud/body/crack_index.c): first their common
+ * bounding box, then for each point the boxes near it, then its bonds. */
 #include "model.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* How far apart the ends of a bond may be along an axis, m, where supports are no wider than usual. Partial
- * volumes reach half a cell further. */
+/* Largest length of a bond along an axis, m, for supports that are not widened. Partial volumes reach half a
+ * cell beyond the horizon. */
 static double reach_of (const pg_problem *p)
 {
     double largest = 1, reach = 0;
@@ -20,7 +19,7 @@ static double reach_of (const pg_problem *p)
     return reach;
 }
 
-/* Several tips or fronts may advance before the bonds die: those that two of them cut are listed once. */
+/* Sorts the list and removes duplicates: several tips or fronts may cut the same bond before it is broken. */
 static void sort_changes (pg_changes *cut)
 {
     size_t n = 0;
@@ -30,7 +29,7 @@ static void sort_changes (pg_changes *cut)
     cut->n = n;
 }
 
-/* Adds the live bonds of point q of a set that the cracks cut. */
+/* Adds to `cut` the intact bonds of point q of a set that the cracks cut. */
 static pg_status cut_at (const pg_state *s, const pg_problem *p, const pg_cracks *cracks, int set, size_t q,
                          pg_changes *cut)
 {
@@ -51,7 +50,7 @@ done:
     return status;
 }
 
-/* Adds to `cut` the live bonds that these n pieces of cracks cut; `cut` stays ascending. */
+/* Adds to `cut` the intact bonds that these n pieces of cracks cut; `cut` stays ascending. */
 static pg_status cut_by (const pg_state *s, const pg_problem *p, pg_crack *piece, size_t n, pg_changes *cut)
 {
     pg_status status = PG_OK;
@@ -82,7 +81,8 @@ done:
 }
 
 /* ---- paths --------------------------------------------------------------------------------------------- */
-/* A copy with room for more pieces, of which those that change are marked. */
+/* A change of crack paths: a copy with room for more pieces; changed: 1: the piece changes; piece: the
+ * changed ones. */
 typedef struct { pg_crack_paths *fresh; unsigned char *changed; pg_crack *piece; } change;
 
 static pg_status begin (change *c, const pg_state *s, size_t pieces)
@@ -100,7 +100,7 @@ done:
     return status;
 }
 
-/* Boxes, bonds; then the fresh paths are the state's. */
+/* Updates the index, finds the bonds cut, and replaces the paths of the state by the copy. */
 static pg_status finish (change *c, pg_state *s, const pg_problem *p, pg_changes *cut)
 {
     pg_status status = PG_OK;
@@ -127,7 +127,8 @@ pg_status pg_crack_grow (pg_state *s, const pg_problem *p, size_t tip, const dou
     pg_status status = PG_OK;
     const pg_ground g = pg_problem_ground (p);
     change c = { 0 };
-    PG_TRY (begin (&c, s, 2 + (s->paths ? s->paths->ntip : 0)));   /* tips that end here are split, too */
+    /* room for tips that end here, which are split */
+    PG_TRY (begin (&c, s, 2 + (s->paths ? s->paths->ntip : 0)));
     PG_TRY (pg_paths_grow (c.fresh, &g, tip, to, close, c.changed));
     PG_TRY (finish (&c, s, p, cut));
 done:
@@ -177,7 +178,8 @@ done:
     return status;
 }
 
-/* Its place in the state; only the new triangles cut anew. Frees what is left. */
+/* Replaces the surfaces of the state by the changed copy and finds the bonds cut by its new triangles; frees
+ * the rest. */
 static pg_status take_surfaces (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p,
                                 pg_status changed, pg_changes *cut)
 {
@@ -234,8 +236,7 @@ double pg_problem_spacing_at (const pg_problem *p, const double *x)
 }
 
 /* ---- the cracks of a state ----------------------------------------------------------------------------- */
-/* A state in the plane, or one whose cracks grow, has its own cracks; elsewhere they are those of the
- * scene. */
+/* A 2D state, or one with growing cracks, has its own cracks; else they are those of the scene. */
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state)
 {
     if (state && state->paths) return &state->paths->cracks;
@@ -251,7 +252,7 @@ const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *s
 
 /* ---- borders of background cells ----------------------------------------------------------------------- */
 /* Integrals over faces of cracks are sums over the pieces between borders of cells, in contact
- * (contact/pieces.c) as in cells that end at cracks (galerkin_ended_plan.c), so that both see the same
+ * (contact/pieces.c) as in cells cut off at cracks (galerkin_ended_plan.c), so that both use the same
  * displacement. */
 pg_status pg_crack_breaks (const pg_problem *p, const double *a, const double *b, size_t *n, double **share)
 {

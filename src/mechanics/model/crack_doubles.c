@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks that the scene gives twice. Each of two cracks at one place has tips where the other has, so that no
- * ring fits between them and neither grows: the second one is left out, and a note says so. In the plane a
- * piece that lies on another is the same crack; two straight cracks that overlap are one, from end to end. */
+ * Cracks that the scene gives twice. The tips of coincident cracks leave no room for integration rings, so
+ * that neither would grow: the second crack is removed with a warning. In 2D a piece that lies on another is
+ * the same crack; two straight cracks that overlap are united. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,8 @@ static double distance (int dim, const double *a, const double *b)
     return sum;
 }
 
-/* Shares of the way along a at which the ends of b lie, if both lie on the line of a. */
+/* Positions of the ends of b along a, as fractions of its length; returns 0: they are not on the line of
+ * a. */
 static int on_line (const pg_crack *a, const pg_crack *b, double near, double share[2])
 {
     const double *x = a->vertex, *y = b->vertex;
@@ -27,7 +28,7 @@ static int on_line (const pg_crack *a, const pg_crack *b, double near, double sh
     return 1;
 }
 
-/* Same vertices, in the same or the other order, from any of them on. */
+/* Returns 1: a and b have the same vertices, in the same or the reverse cyclic order. */
 static int same_outline (const pg_crack *a, const pg_crack *b, double near)
 {
     size_t n = a->nvertex;
@@ -44,7 +45,7 @@ static int same_outline (const pg_crack *a, const pg_crack *b, double near)
     return 0;
 }
 
-/* Is b a part of a? overlap: they share a piece without that, in the plane. */
+/* Returns 1: crack b is a part of a. *overlap: 1: they share a piece (2D). */
 static int contains (int dim, const pg_crack *a, const pg_crack *b, double near, int *overlap)
 {
     double share[2];
@@ -62,7 +63,7 @@ static int contains (int dim, const pg_crack *a, const pg_crack *b, double near,
     return low >= -tolerance && high <= 1 + tolerance;
 }
 
-/* Pieces of the scene's entry that piece i belongs to. */
+/* Number of pieces, and the first, of the entry in `cracks` to which piece i belongs. */
 static size_t pieces_of (const pg_cracks *all, size_t i, size_t *first)
 {
     size_t last = i;
@@ -71,7 +72,7 @@ static size_t pieces_of (const pg_cracks *all, size_t i, size_t *first)
     return last - *first;
 }
 
-/* Straight crack a becomes as long as both are. */
+/* Extends straight crack a to the union of a and b. */
 static void join (pg_crack *a, const pg_crack *b)
 {
     double share[2], x[4];
@@ -92,7 +93,7 @@ static void drop (pg_cracks *all, size_t i)
     all->n--;
 }
 
-/* What becomes of piece j, which piece i before it may double. */
+/* Treats piece j, which may coincide with an earlier piece i; returns 1: j is removed. */
 static int settle (pg_problem *p, size_t i, size_t j, const pg_scene *scene)
 {
     pg_cracks *all = &p->crack.given;
@@ -105,7 +106,7 @@ static int settle (pg_problem *p, size_t i, size_t j, const pg_scene *scene)
     if (!whole && !inside && !overlap) return 0;
     int lone = pieces_of (all, j, &first) == 1, alone = pieces_of (all, i, &other) == 1;
     if (!(whole && p->dim == 3) && !(lone && (whole || alone))) {
-        /* a polyline that is there as a whole goes with its last piece */
+        /* part of a polyline: an error (whole polylines are treated by drop_polyline) */
         snprintf (at, sizeof at, "cracks[%zu]", b->entry);
         pg_scene_fault (scene, at, "runs along a piece of cracks[%zu]: give each piece once", a->entry);
         return 0;
@@ -117,7 +118,7 @@ static int settle (pg_problem *p, size_t i, size_t j, const pg_scene *scene)
     return 1;
 }
 
-/* Is polyline j, piece by piece, what another entry is already? */
+/* Returns 1: each of the n pieces of polyline j lies on one of the m pieces of entry i. */
 static int same_polyline (const pg_cracks *all, size_t j, size_t n, size_t i, size_t m)
 {
     int overlap;
@@ -151,13 +152,13 @@ pg_status drop_doubled_cracks (pg_problem *p, const pg_scene *scene)
 {
     size_t before = p->crack.given.n, first = 0;
     if (p->dim < 2) return PG_OK;
-    /* Pieces of an entry follow each other from `first` on: the pieces of others lie before that. */
+    /* The pieces of the current entry start at `first`; those before belong to other entries. */
     for (size_t j = 1; j < p->crack.given.n; j++) {
         int begins = p->crack.given.crack[j].entry != p->crack.given.crack[j - 1].entry, gone;
         if (begins) first = j;
         gone = begins && drop_polyline (p, j);
         for (size_t i = 0; i < first && !gone; i++) gone = settle (p, i, j, scene);
-        /* the next piece takes this place */
+        /* the next piece has moved to index j */
         if (gone) j--;
     }
     return p->crack.given.n < before ? pg_cracks_index (&p->crack.given) : PG_OK;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * method.dilatation: which materials carry their pressure by the dilatation of patches (doc/method.md,
- * "Poisson's ratio near 1/2"), and what is said of those that do not although they should. */
+ * method.dilatation: selects the materials whose dilatation is projected onto patches (doc/method.md,
+ * "Poisson's ratio near 1/2"), and warns of those that should be. */
 #include "model.h"
 #include <string.h>
 
-/* lambda / mu from which it is projected, that of Poisson's ratio 0.45: there the stresses of a thick
- * cylinder (ten cells through its wall, linear basis) are 5 % off with the dilatation at the points, three
- * times as much as at 0.3; at 0.49 20 %, at 0.4999 ten times too large. */
+/* lambda / mu from which the dilatation is projected, that of Poisson's ratio 0.45: there the stresses of a
+ * thick cylinder (ten cells through its wall, linear basis) are 5 % off with the dilatation at the points,
+ * three times as much as at 0.3; at 0.49 they are 20 % off, at 0.4999 ten times too large. */
 static const double stiff = 9;
 
 static double shear_of (const pg_material *m) { return m->D[m->mode == PG_SOLID ? 21 : 8]; }
@@ -16,8 +16,8 @@ static int nearly_incompressible (const pg_material *m)
     return m->lambda > 0 && m->lambda >= stiff * (1 - 1e-9) * shear_of (m);
 }
 
-/* What is said of materials near 1/2 whose dilatation is not projected: state-based forces cannot, and
- * `pointwise` was asked for. */
+/* Warns of materials near Poisson's ratio 1/2 whose dilatation is not projected, with state-based forces or
+ * `pointwise`. */
 static void warn (pg_problem *p, const char *mode)
 {
     for (size_t m = 0; m < p->nmaterial; m++) {
@@ -46,7 +46,7 @@ static const pg_rows *points_of (const pg_problem *p, int *set)
     return &p->bonds.rows[*set];
 }
 
-/* A stiffness of place goes with a dilatation at the points alone. */
+/* Reports that a modulus varying with position cannot be combined with a projected dilatation. */
 static void refuse_graded (const pg_material *m, const pg_scene *scene)
 {
     char path[128];
@@ -55,7 +55,7 @@ static void refuse_graded (const pg_material *m, const pg_scene *scene)
                     "ratio: every patch has one bulk modulus; use method.dilatation: pointwise, or blocks");
 }
 
-/* Patches carry the lambda of the materials that need them; the rest of D stays at the points. */
+/* Makes the patches for the lambda of materials that need them; the rest of D is evaluated at the points. */
 pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Strains without stress: temperature by the coefficient of expansion, shrinkage, pore pressure by Biot's
- * coefficient, the same along all axes. Pore pressure p takes b p off the mean stress that the skeleton's
- * strain makes: that of a free strain b p / (3 K), K the bulk modulus. */
+ * coefficient, the same along all axes. Pore pressure p reduces the mean stress by b p, which is equivalent
+ * to a free strain b p / (3 K), K the bulk modulus. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,8 @@
 static const char *const keys[] = { "temperature", "shrinkage", "pore_pressure" };
 static const char *const units[] = { "K", "1", "Pa" };
 
-/* Factor of the value of load i in material m; a fault where the material does not say. */
+/* Factor from the value of the load to the free strain in material m; reports an error if a constant is
+ * missing. */
 static double factor_of (const pg_problem *p, const pg_scene *scene, const pg_material *m, int what,
                          const char *path)
 {
@@ -35,7 +36,7 @@ static double factor_of (const pg_problem *p, const pg_scene *scene, const pg_ma
     return pg_scene_number (scene, "materials.%s.biot", m->name) * (1 - 2 * m->nu) / m->E;
 }
 
-/* What does not carry free strains is refused, in words. */
+/* Reports methods and options that do not support free strains as errors. */
 static void check_method (const pg_problem *p, const pg_scene *scene, const char *path)
 {
     if (!p->method->shape_functions)

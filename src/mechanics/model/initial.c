@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * initial: the velocity of every point at the start of a dynamic run. Direct forces only: their unknowns are
- * displacements of points. */
+ * Key `initial`: initial velocities of a dynamic run. Only for forces without shape functions, whose unknowns
+ * are displacements of points. */
 #include "model.h"
 #include <math.h>
 #include <string.h>
 
-/* Component k of a velocity at the start (below the key `where`), an expression in x, y, z (m/s); time has no
- * place in it. */
+/* Component k of a velocity at the start (below the key `where`), an expression in x, y, z (m/s), not in
+ * t. */
 static pg_status read_component (pg_problem *p, const pg_scene *scene, const char *where, int k,
                                  pg_expression **out)
 {
@@ -26,7 +26,7 @@ done:
     return status;
 }
 
-/* Velocities of sets. */
+/* Reads the initial velocities of n sets. */
 static pg_status read_sets (pg_problem *p, const pg_scene *scene, size_t n)
 {
     pg_status status = PG_OK;
@@ -44,7 +44,7 @@ done:
     return status;
 }
 
-/* Ignored by quasi-static solvers, which know no velocity. */
+/* Reads the section `initial`, which quasi-static solvers ignore. */
 pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -67,7 +67,7 @@ done:
     return status;
 }
 
-/* Component k at a place, m/s. */
+/* Component k of the initial velocity at x, m/s. */
 static double velocity_at (const pg_problem *p, pg_expression *const *value, const double *x, size_t k)
 {
     pg_place at = pg_place_of (p->dim, x, 0);
@@ -89,8 +89,8 @@ static double slope_at (const pg_problem *p, pg_expression *const *value, size_t
     return isfinite (slope) ? slope : 0;
 }
 
-/* Points with rotations turn with the velocity of the body about them, half its curl (unknown: spacing times
- * rotation): a body that spins is at rest in itself. */
+/* Sets the initial velocity of point i. Rotations get half the curl of the velocity times h (unknown: spacing
+ * times rotation), so that a rigidly rotating body is free of strain rates. */
 static void set_point (const pg_problem *p, pg_expression *const *value, size_t i, double *own)
 {
     size_t dim = (size_t) p->dim;
@@ -104,7 +104,7 @@ static void set_point (const pg_problem *p, pg_expression *const *value, size_t 
     }
 }
 
-/* All points, then those of the sets, the last set last. */
+/* Sets the initial velocities of all points, then those of sets, of which later ones prevail. */
 void pg_initial_set (const pg_problem *p, double *v)
 {
     size_t stride = (size_t) pg_problem_unknowns (p);

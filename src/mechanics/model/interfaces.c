@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Number of the material of that name among the first two of an entry, -1 with a fault. */
+/* Index of the material named as number `which` (0, 1) in `between` of entry k; -1: error reported. */
 static int material_named (const pg_problem *p, const pg_scene *scene, size_t k, size_t which)
 {
     const char *name = pg_scene_name (scene, which, "failure.interfaces[%zu].between", k);
@@ -19,7 +19,7 @@ static int material_named (const pg_problem *p, const pg_scene *scene, size_t k,
     return -1;
 }
 
-/* failure.interfaces, once the materials are known. What is wrong becomes a fault of the scene. */
+/* Reads failure.interfaces, after the materials; errors become errors of the scene. */
 pg_status pg_interfaces_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Stiffness and limits as expressions of place: every point of every bond set has the elastic law and the
- * criterion of its own place. Points of equal values share one, so that a body of two stiffnesses by a
- * condition is the body of two blocks. Constants that follow from a horizon or a lattice are derived once,
- * for the mean over the nodes, and scaled to each place (pg_criterion_type.scale): at one Poisson's ratio
- * they go with powers of the ratios. */
+ * Stiffness and limits as expressions of position: every point of every bond set has the elastic law and the
+ * criterion of its position. Points with equal values share one, so that two stiffnesses given by a condition
+ * are equivalent to two blocks. Constants that follow from a horizon or a lattice are derived once, for the
+ * mean over the nodes, and scaled to each position (pg_criterion_type.scale), as they are powers of the
+ * ratios at constant Poisson's ratio. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +37,7 @@ int pg_problem_graded (const pg_problem *p)
 }
 
 /* ---- expressions --------------------------------------------------------------------------------------- */
-/* The key that gives a limit to a material: its own before that of `failure`. 0: neither does. */
+/* Finds the key of limit k of a material: its own, else that of `failure`; returns 0: neither is given. */
 static int key_of (char path[128], const pg_scene *scene, const char *material, int k)
 {
     const char *key = what[k].key;
@@ -51,7 +51,8 @@ static int key_of (char path[128], const pg_scene *scene, const char *material, 
 
 typedef struct { const pg_problem *p; int set; const pg_expression *e; double *value; } evaluation;
 
-/* A sum of waves is dear: places are shared among threads. */
+/* Evaluates an expression at points first .. last - 1 of a set (random fields are expensive: done in
+ * parallel). */
 static void evaluate (void *context, size_t first, size_t last, int thread)
 {
     const evaluation *v = context;
@@ -65,8 +66,8 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* The reference is the mean of what is positive over all nodes: which of them are of this material is not
- * known before blocks are, and the expression need not be positive elsewhere. */
+/* Computes the reference value: the mean of positive values over all nodes, as it is not yet known which
+ * nodes are of this material, and the expression need not be positive elsewhere. */
 static pg_status find_reference (const pg_problem *p, pg_variation *v, int k)
 {
     pg_status status = PG_OK;
@@ -84,7 +85,7 @@ done:
     return status;
 }
 
-/* One limit of one material, if it is an expression: compiled, with its reference. Criteria of tips read
+/* Compiles one limit of one material, if it is an expression, and finds its reference. Criteria of tips read
  * their own limits. */
 static pg_status read_one (const pg_problem *p, const pg_scene *scene, size_t m, const char *material, int k)
 {
@@ -99,7 +100,7 @@ done:
     return status;
 }
 
-/* Before materials and criteria are read, whose constants derive from the references. */
+/* Reads all expressions, before materials and criteria, whose constants derive from the references. */
 pg_status pg_laws_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -114,8 +115,8 @@ done:
     return status;
 }
 
-/* The law can be scaled only where it is nothing but its tangent. Integrals around tips lack the term of the
- * gradient of the stiffness. */
+/* Checks that varying quantities are supported: laws can be scaled only if they are linear. Warns that
+ * integrals around tips lack the term of the stiffness gradient. */
 void pg_laws_check (pg_problem *p, const pg_scene *scene)
 {
     char path[128];
@@ -140,8 +141,8 @@ void pg_laws_check (pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* Is it an expression that anything is judged by, and whose value is one of place alone? The direction of
- * growth is known to criteria of tips, which read their limits by themselves. */
+/* Returns 1: limit k of material m is an expression of position in use (not of the direction of growth, which
+ * criteria of tips evaluate themselves). */
 static int counts (const pg_problem *p, size_t m, int k)
 {
     const pg_expression *e = p->at.vary[m].of[k];
@@ -150,7 +151,7 @@ static int counts (const pg_problem *p, size_t m, int k)
 }
 
 /* ---- values -------------------------------------------------------------------------------------------- */
-/* A point and what it has: its block, the values of what varies there. */
+/* A point: the values of varying quantities, its block, its index over all sets. */
 typedef struct { double value[MOST]; int block; size_t at; } entry;
 
 static int by_value (const void *a, const void *b)
@@ -161,14 +162,15 @@ static int by_value (const void *a, const void *b)
     return x->at < y->at ? -1 : x->at > y->at;
 }
 
-/* First points of groups come first: laws are numbered as points are, so that neighbours lie together. */
+/* Order by point index: laws are numbered by the first point of each group, so that neighbours are near in
+ * memory. */
 static int by_point (const void *a, const void *b)
 {
     const entry *x = a, *y = b;
     return x->at < y->at ? -1 : x->at > y->at;
 }
 
-/* Values of all points of all sets. */
+/* Evaluates varying quantities at all points of all sets. */
 static pg_status find_values (const pg_problem *p, const pg_scene *scene, entry *out)
 {
     pg_status status = PG_OK;
@@ -205,8 +207,8 @@ done:
     return status;
 }
 
-/* Divides n entries by block and those values that `uses` names: `of` (n) is the number of each one's group,
- * `first` the first entry of every group. */
+/* Groups n entries with equal block and equal values marked in `uses`: of (n): group of each; first: the
+ * first entry of every group. */
 static pg_status group (const entry *all, size_t n, const int uses[MOST], int *of, entry **first,
                         size_t *count)
 {
@@ -237,7 +239,7 @@ done:
     return status;
 }
 
-/* A law that is its tangent, at another Young's modulus and the same Poisson's ratio. */
+/* Scales a linear law to another Young's modulus at the same Poisson's ratio. */
 static void scale_law (pg_material *m, double ratio)
 {
     m->E *= ratio, m->modulus *= ratio, m->mu *= ratio, m->lambda *= ratio;
@@ -246,7 +248,7 @@ static void scale_law (pg_material *m, double ratio)
         m->out_of_plane[k] *= ratio;
 }
 
-/* Numbers of groups to the points of every set. */
+/* Copies the groups of all points to arrays of each set. */
 static pg_status deal_out (const pg_problem *p, const int *group_of, int *to[PG_BOND_SETS])
 {
     pg_status status = PG_OK;
@@ -259,7 +261,7 @@ done:
     return status;
 }
 
-/* Elastic laws of all points. */
+/* Makes the elastic laws of all points. */
 static pg_status make_laws (pg_problem *p, const entry *all, size_t n, int *of)
 {
     static const int stiffness[MOST] = { [PG_OF_STIFFNESS] = 1 };
@@ -281,7 +283,7 @@ done:
     return status;
 }
 
-/* Criteria of all points. */
+/* Makes the criteria of all points. */
 static pg_status make_limits (pg_problem *p, const entry *all, size_t n, int *of)
 {
     static const int every[MOST] = { 1, 1, 1, 1, 1 };
@@ -305,7 +307,7 @@ done:
     return status;
 }
 
-/* Least, mean and most of each expression over the nodes of its material. */
+/* Computes least, mean and largest value of each expression over the nodes of its material. */
 static pg_status summarise (pg_problem *p, const entry *all)
 {
     pg_status status = PG_OK;
@@ -328,7 +330,7 @@ done:
     return status;
 }
 
-/* Where nothing varies, materials and blocks serve as they are. */
+/* Without variation: uses materials and blocks directly. */
 static void take_blocks (pg_problem *p)
 {
     p->at.law = p->material, p->at.nlaw = p->nmaterial, p->at.limit = p->criterion,
@@ -343,7 +345,7 @@ static int any_varies (const pg_problem *p)
     return any;
 }
 
-/* Once every point has its block. */
+/* Makes laws and criteria of all points, after blocks are assigned. */
 pg_status pg_laws_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -366,7 +368,7 @@ done:
     return status;
 }
 
-/* Tables that are not those of the materials. */
+/* Frees the tables that are not those of the materials. */
 void pg_laws_clear (pg_problem *p)
 {
     for (int s = 0; s < PG_BOND_SETS; s++) {

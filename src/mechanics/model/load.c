@@ -5,8 +5,8 @@
 #include <string.h>
 #include <math.h>
 
-/* What an entry of `boundary` can prescribe or apply: its key, the unit of its values, its kind. An entry
- * has one of them (keys.c). */
+/* Kinds of entries of `boundary`: key, unit of its values, kind of load. An entry gives one of these keys
+ * (keys.c). */
 static const struct { const char *key, *unit; pg_load_kind kind;
 } kinds[] = {
     { "symmetry", "m", PG_DISPLACEMENT },     { "turn", "rad", PG_DISPLACEMENT },
@@ -19,8 +19,9 @@ static const struct { const char *key, *unit; pg_load_kind kind;
     { "rotation", "rad", PG_ROTATION },       { "moment", "N m", PG_MOMENT },
 };
 
-/* The ramp as an expression in t. Words: linear (from 0 to 1 over the run) or constant. A velocity's ramp
- * is integrated to one for the displacement: t^2 / (2 duration), or t. duration: s (quasi-static: 1). */
+/* Reads the ramp as an expression in t, or one of the words linear (from 0 to 1 over the run) or constant. A
+ * velocity's ramp is integrated to one for the displacement: t^2 / (2 duration), or t. duration: s
+ * (quasi-static: 1). */
 static pg_status read_ramp (pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
 {
     pg_status status = PG_OK;
@@ -47,7 +48,7 @@ done:
     return status;
 }
 
-/* Pairs [t, factor] with ascending t; each wrong pair is a fault of its own. */
+/* Reads a table of pairs [t, factor] with ascending t; each wrong pair is reported. */
 static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -67,7 +68,8 @@ done:
     return status;
 }
 
-/* Reads symmetry, turn, gravity, spring and eigenstrain, no maps of components x, y, z. 0: it is another. */
+/* Reads the special kinds symmetry, turn, gravity, spring and eigenstrain; returns 0: the entry is of another
+ * kind. */
 static int read_special (pg_problem *p, pg_load *load, const pg_scene *scene, size_t i, const char *key,
                          pg_status *status)
 {
@@ -81,9 +83,9 @@ static int read_special (pg_problem *p, pg_load *load, const pg_scene *scene, si
     return symmetry || turn || gravity || load->kind == PG_SPRING || load->kind == PG_EIGENSTRAIN;
 }
 
-/* The expressions of the components that are given; components beyond those of the body are faults, and
- * at least one is needed. A pressure has one, and no direction. A value that depends on t is not
- * proportional to the load factor. */
+/* Reads the expressions of the components x, y, z (a pressure has one value); at least one is needed,
+ * components beyond the dimension are errors. A value that depends on t is not proportional to the load
+ * factor. */
 static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, const char *key,
                               const char *unit)
 {
@@ -120,23 +122,23 @@ done:
     return status;
 }
 
-/* Does a load act on boundary facets, rather than on points? Tractions and pressures do, and supports by
- * Nitsche's terms. */
+/* Returns 1: the load acts on boundary facets (traction, pressure, support by Nitsche's method), not on
+ * points. */
 static int acts_on_facets (const pg_load *load)
 {
     return load->kind == PG_TRACTION || load->kind == PG_PRESSURE
            || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
 }
 
-/* The set of a load must hold what it acts on: facets, or points. Empty sets whose emptiness has been
- * told where they are defined are passed over. */
+/* Checks that the set of a load contains facets or points to act on. Empty sets already reported at their
+ * definition are skipped. */
 static void check_place (const pg_problem *problem, const pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64];
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     const pg_set *set = load->set;
     int empty = pg_set_points (set) == 0 && pg_set_facets (set) == 0;
-    /* told there */
+    /* reported at the definition of the set */
     if (empty && (pg_scene_given (scene, "sets.%s", set->name) || pg_sets_empty_side (&problem->sets, set)))
         return;
     int on_facets = acts_on_facets (load);
@@ -151,8 +153,8 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
         pg_scene_fault (scene, path, "the set %s holds no point", set->name);
 }
 
-/* The most that the box of the body measures along the normal of a facet of the set, m: no load can reach
- * deeper. */
+/* Largest extent of the body's bounding box along the normal of a facet of the set, m: upper bound of a
+ * load's depth. */
 static double deepest (const pg_problem *problem, const pg_set *set)
 {
     const pg_cells *c = &problem->cells;
@@ -174,9 +176,8 @@ static double deepest (const pg_problem *problem, const pg_set *set)
     return most;
 }
 
-/* boundary[].depth: without shape functions a traction may act on a layer of points instead of the
- * outermost ones (Silling and Askari 2005); shape functions carry it on the surface itself, where a depth
- * would mean nothing. */
+/* Reads boundary[].depth: forces without shape functions may distribute a traction over a layer of points
+ * instead of the outermost ones (Silling and Askari 2005); shape functions apply it on the surface itself. */
 static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64], names[160];
@@ -203,8 +204,8 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
     }
 }
 
-/* The name given, or that of its set without blanks ("polygon.edge 3"): it heads a column of history.csv,
- * where blanks would end it for many readers. */
+/* Sets the name of a load: the one given, or that of its set with blanks replaced ("polygon.edge 3"), as
+ * blanks disturb readers of history.csv. */
 static void name_load (pg_load *load, const pg_scene *scene, size_t i, const char *set)
 {
     const char *name = pg_scene_text (scene, "boundary[%zu].name", i);
@@ -213,11 +214,11 @@ static void name_load (pg_load *load, const pg_scene *scene, size_t i, const cha
     for (char *c = load->name; *c && !given; c++) if (*c == ' ') *c = '_';
 }
 
-/* `set: cracks`: no points and no facets, for faces come into being in the run. */
+/* The set of `set: cracks`, without points and facets, as crack faces arise during the run. */
 static const pg_set crack_faces = { .name = "cracks" };
 
-/* A pressure in cracks is equivalent to one on the surface and inside the body (theory: the divergence of
- * every shape function), which holds where it is the same at all places. */
+/* Checks a pressure in cracks. It is applied as an equivalent load on surface and interior (by the divergence
+ * theorem), which is valid for uniform pressure only. */
 static void check_cracks (const pg_problem *problem, const pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64];
@@ -240,13 +241,13 @@ static void check_cracks (const pg_problem *problem, const pg_load *load, const 
                         "a pressure in cracks is the same at all places: an expression of t alone");
 }
 
-/* What acts on the whole body unless a set says where. */
+/* Returns 1: without a set the load acts on the whole body. */
 static int acts_everywhere (const pg_load *load)
 {
     return load->kind == PG_BODY_FORCE || load->kind == PG_EIGENSTRAIN;
 }
 
-/* The first of the kinds whose key entry i of `boundary` gives; the last where it gives none. */
+/* Index in `kinds` of the first key that entry i of `boundary` gives; the last kind if none. */
 static size_t kind_of (const pg_scene *scene, size_t i)
 {
     size_t k = 0;
@@ -256,8 +257,8 @@ static size_t kind_of (const pg_scene *scene, size_t i)
     return k;
 }
 
-/* Where entry i acts: a set, a place (at) or the faces of cracks, and the name that follows from that.
- * load->set stays NULL where a fault says why. */
+/* Reads where entry i acts: a set, a position (at) or crack faces; sets its name. load->set stays NULL after
+ * a reported error. */
 static pg_status read_where (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -279,7 +280,7 @@ done:
     return status;
 }
 
-/* How entry i changes with time: by the stages, by its table, by its ramp. */
+/* Reads the time dependence of entry i: stages, table or ramp. */
 static pg_status read_course (pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
 {
     size_t nstage = pg_scene_count (scene, "stages");
@@ -290,7 +291,7 @@ static pg_status read_course (pg_load *load, const pg_scene *scene, size_t i, in
     return read_ramp (load, scene, i, is_static, duration);
 }
 
-/* Entry i of `boundary`. duration: end of the run, s (quasi-static: 1), for ramps over it. */
+/* Reads entry i of `boundary`. duration: end of the run, s (quasi-static: 1), for ramps over it. */
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i,
                             int is_static, double duration)
 {
@@ -327,8 +328,8 @@ done:
     return status;
 }
 
-/* Names become columns of history.csv: two given alike are a fault, a name taken from the set gets the
- * number of its entry. */
+/* Makes names of loads unique (columns of history.csv): equal given names are an error, a name taken from the
+ * set gets the number of its entry appended. */
 static void name_apart (pg_problem *problem, const pg_scene *scene)
 {
     char path[64];
@@ -349,7 +350,7 @@ static void name_apart (pg_problem *problem, const pg_scene *scene)
         }
 }
 
-/* Supports are checked against each other once all are there. */
+/* Reads all loads, supports, platens and stages, then checks supports against each other. */
 pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Loads and supports must be finite numbers wherever and whenever they act: a root of a negative number
- * or a quotient by zero is a fault of the scene, found before the first step. Asked at the points, or
- * facets, of each entry of `boundary` and at LOOKS times of the run; at times between these the residual
- * tells. */
+ * Loads and supports must be finite numbers wherever and whenever they act: a root of a negative number or a
+ * quotient by zero is an error of the scene, found before the first step. Evaluated at the points, or facets,
+ * of each entry of `boundary` and at LOOKS times of the run; at other times the residual reveals it. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 
 enum { LOOKS = 16 };
 
-/* The first place and time at which a component is not finite; 1: there is one. */
+/* Finds the first position (m) and time at which component k is not finite; returns 1: there is one. */
 static int finds_none (const pg_problem *p, const pg_load *load, int k, double duration, double *where,
                        double *when, double *value)
 {
@@ -18,7 +17,7 @@ static int finds_none (const pg_problem *p, const pg_load *load, int k, double d
     int apart = pg_load_separates (load);
     for (int look = 1; look <= LOOKS; look++) {
         double t = duration * look / LOOKS;
-        /* one place tells the factor of time, one time the pattern of places */
+        /* separable load: one point suffices for the time factor, one time for the spatial pattern */
         for (size_t i = 0; i < (apart && look < LOOKS && n ? 1 : n); i++) {
             const double *x = s->npoint ? p->cloud.x + (size_t) s->point[i] * dim
                                         : p->cells.facet_centre + (size_t) s->facet[i] * dim;
@@ -35,7 +34,7 @@ static int finds_none (const pg_problem *p, const pg_load *load, int k, double d
 void pg_loads_check_finite (const pg_problem *p, const pg_scene *scene, double duration)
 {
     size_t own = pg_scene_count (scene, "boundary");
-    if (pg_scene_verdict (scene) != PG_OK) return;     /* what is faulty may lack expressions */
+    if (pg_scene_verdict (scene) != PG_OK) return;     /* loads with errors may lack expressions */
     for (size_t i = 0; i < own && i < p->boundary.nload; i++) {
         const pg_load *load = &p->boundary.load[i];
         char path[32];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where loads act: the place that moments are about, a force at a place between points, planes of symmetry,
- * sets that turn as rigid bodies, bodies that weigh. */
+ * Where loads act: reference points of moments, forces at positions between points, planes of symmetry, rigid
+ * rotations of sets, gravity. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,13 +12,13 @@ void pg_load_add_moment (const pg_load *load, int dim, const double *x, int k, d
 {
     double arm[3] = { 0 };
     for (int c = 0; c < dim; c++) arm[c] = x[c] - load->about[c];
-    /* arm x e_k */
+    /* moment += arm x (force e_k) */
     int next = (k + 1) % 3, last = (k + 2) % 3;
     moment[next] += arm[last] * force;
     moment[last] -= arm[next] * force;
 }
 
-/* The cell half a step behind the centre of a facet tells. */
+/* Ownership of a facet follows from the cell half a step behind its centre. */
 int pg_problem_owns_facet (const pg_problem *p, size_t facet)
 {
     size_t dim = (size_t) p->dim;
@@ -30,7 +30,8 @@ int pg_problem_owns_facet (const pg_problem *p, size_t facet)
     return pg_lattice_owns (&p->lattice, p->cloud.subdomain, behind);
 }
 
-/* The centre of a set: of its facets by their areas, or of its points by their volumes; on all ranks. */
+/* Centroid of a set, m, over all ranks: of its facets weighted by area, or of its points weighted by
+ * volume. */
 static pg_status centre_of (const pg_problem *p, const pg_set *set, int on_facets, double *centre)
 {
     pg_status status = PG_OK;
@@ -52,8 +53,8 @@ done:
     return status;
 }
 
-/* A total force on a set of faces acts on these, evenly by their area, as a traction does; equal shares of
- * their points would act up to half a spacing inside the body, and as strongly at a corner as elsewhere. */
+/* Converts a total force on a set of faces to a uniform traction; equal shares of its points would act up to
+ * half a spacing inside the body, and as strongly at a corner as elsewhere. */
 pg_status pg_load_spread_force (const pg_problem *p, pg_load *load)
 {
     pg_status status = PG_OK;
@@ -68,7 +69,7 @@ done:
     return status;
 }
 
-/* boundary[].about, or the centre of the set. */
+/* Sets load->about to boundary[].about, or to the centroid of the set. */
 pg_status pg_load_centre (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -91,7 +92,8 @@ done:
     return status;
 }
 
-/* One angle, the same for all places, and the components of the displacement that it prescribes. */
+/* Reads one angle of a rigid rotation (a function of t only) and marks the components of displacement that it
+ * prescribes. */
 static pg_status read_angle (const pg_problem *p, pg_load *load, const pg_scene *scene, const char *path,
                              int axis)
 {
@@ -111,7 +113,7 @@ done:
     return status;
 }
 
-/* boundary[].turn. A rotation by finite angles is no multiple of one by others. */
+/* Reads boundary[].turn. Displacements of finite rotations are not proportional to the load factor. */
 pg_status pg_load_read_turn (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -133,14 +135,14 @@ done:
 }
 
 /* ---- planes of symmetry -------------------------------------------------------------------------------- */
-/* The axis that all facets of a set show along, or all of its points have the same coordinate of, on all
- * ranks; -1: none, -2: several. */
+/* Finds the axis normal to the plane of a set (of all its facets, or of points with equal coordinates), over
+ * all ranks; *place: its coordinate, m. *found -1: none, -2: several. */
 static pg_status axis_of (const pg_problem *p, const pg_set *set, double *place, int *found)
 {
     pg_status status = PG_OK;
     int on_facets = pg_set_facets (set) > 0;
     size_t dim = (size_t) p->dim, n = on_facets ? set->nfacet : set->npoint;
-    double most[9];                                    /* per axis: - lowest, highest, - least along it */
+    double most[9];  /* per axis: -lowest, highest coordinate, -least |normal| */
     for (size_t k = 0; k < 3; k++) most[k] = most[3 + k] = -INFINITY, most[6 + k] = -1;
     for (size_t k = 0; k < dim; k++)
         for (size_t i = 0; i < n; i++) {
@@ -160,8 +162,8 @@ done:
     return status;
 }
 
-/* boundary[].symmetry: the displacement across the plane is zero. Points of other forces than those of a weak
- * form are held where they are, so that the plane should go through them. */
+/* Reads boundary[].symmetry: zero displacement normal to the plane. Forces without shape functions constrain
+ * points where they are, so that these should lie on the plane. */
 pg_status pg_load_read_symmetry (pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -213,7 +215,7 @@ double pg_load_density (const pg_problem *p, const pg_load *load, int set, size_
     return load->weighs ? p->material[p->block[set][point]].density : 1;
 }
 
-/* boundary[].gravity: an acceleration, the same everywhere; times the density where it acts. */
+/* Reads boundary[].gravity: an acceleration, the same everywhere; times the density where it acts. */
 pg_status pg_load_read_gravity (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -234,19 +236,20 @@ done:
     return status;
 }
 
-/* ---- a place between points ---------------------------------------------------------------------------- */
-/* A point near a place: where it is, the local spacing, its number in the body; numbers, so that ranks can
- * send it to each other. */
+/* ---- a position between points ------------------------------------------------------------------------- */
+/* A point near the position of a load: coordinates, m, local spacing, m, global number; all doubles, for
+ * exchange between ranks. */
 typedef struct { double x[3], size, number; } near_point;
 enum { NEAR = sizeof (near_point) / sizeof (double) };
 typedef struct {
     const pg_problem *p;
     const double *x;
-    double  reach, nearest;                            /* nearest: distance of the next point, m */
-    size_t  nnear;  near_point *near;                  /* the points around it on all ranks, by number */
-    size_t  n, cap;  size_t *found;  double *share;    /* points of near within reach; share of each (n) */
+    double  reach, nearest;  /* radius of the support, m; distance of the nearest point, m */
+    size_t  nnear;  near_point *near;                  /* the points around x on all ranks, by number */
+    /* indices in `near` of points within reach; weight of each (n) */
+    size_t  n, cap;  size_t *found;  double *share;
 } place;
-/* Spacings from the place to the farthest points that may bear it. */
+/* Largest distance, in spacings, of points that may carry the load. */
 static const double farthest = 4;
 
 static double square_to (const place *a, const double *x)
@@ -262,7 +265,7 @@ static int ascending (const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-/* The points that the place may be borne by, of all ranks, the same list on each of them. */
+/* Lists the points of all ranks that may carry the load, equal on all ranks. */
 static pg_status list_near (place *a)
 {
     pg_status status = PG_OK;
@@ -293,7 +296,7 @@ done:
     return status;
 }
 
-/* Points within the reach of a place that no crack hides from it, ascending. */
+/* Finds the points within reach of x that no crack separates from it, ascending. */
 static pg_status look_around (place *a)
 {
     pg_status status = PG_OK;
@@ -312,8 +315,8 @@ done:
     return status;
 }
 
-/* Shares that sum up to 1 and put their centre to the place: linear moving least squares with the weight
- * (1 - (r / reach)^2)^2. 0: too few points. */
+/* Computes weights with sum 1 and centroid x: linear moving least squares with weight function (1 - (r /
+ * reach)^2)^2. Returns 0: too few points. */
 static int share_out (const place *a)
 {
     int dim = a->p->dim, m = dim + 1;
@@ -339,7 +342,7 @@ static int share_out (const place *a)
     return 1;
 }
 
-/* The local spacing, that of the nearest point. */
+/* Local spacing at x, m: that of the nearest point. */
 static double spacing_near (const place *a)
 {
     double least = INFINITY, size = a->p->cloud.h;
@@ -350,7 +353,7 @@ static double spacing_near (const place *a)
     return size;
 }
 
-/* The reach grows until the shares are sound. A point at the place itself takes all. */
+/* Increases the reach until the weights are well-conditioned. A point at x itself gets weight 1. */
 static pg_status find_shares (place *a, const pg_scene *scene, const char *path)
 {
     pg_status status = PG_OK;
@@ -381,7 +384,7 @@ done:
     return status;
 }
 
-/* Keeps of the points found those that this process holds, as the set, and of the shares theirs. */
+/* Keeps the points found, and their weights, that this process stores, as the set. */
 static pg_status take_held (place *a, pg_set *set)
 {
     pg_status status = PG_OK;
@@ -399,7 +402,7 @@ done:
     return status;
 }
 
-/* boundary[].at: the points around a place and their shares, as a set of its own. */
+/* Reads boundary[].at: finds the points around the position and their weights, as a set of the load's own. */
 pg_status pg_load_read_place (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Springs that hold a set or a place: stiffness, and how far their other ends move. */
+ * Springs at a set or a position: stiffness, and displacement of their other ends. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,9 +11,8 @@ double pg_load_share (const pg_load *load, size_t i)
 }
 const double *pg_load_site (const pg_load *load, const double *x) { return load->own ? load->at : x; }
 
-/* Points of a set share its springs by their volumes, so that those at its rim have no more than their part.
- * At
- * a place only points count that pull their way: a spring of negative stiffness is none. */
+/* Distributes the spring stiffness over the points of a set by their volumes; for a position between points
+ * by weights, of which negative ones are set to 0. */
 static pg_status share_stiffness (const pg_problem *p, pg_load *load)
 {
     pg_status status = PG_OK;
@@ -30,7 +29,7 @@ done:
     return status;
 }
 
-/* How far the other end moves along k; springs along no axis have none. */
+/* Reads the displacement (m) of the other end of springs along axis k. */
 static pg_status read_end (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i, int k)
 {
     pg_status status = PG_OK;
@@ -50,7 +49,7 @@ done:
     return status;
 }
 
-/* boundary[].spring and spring_end. */
+/* Reads boundary[].spring and spring_end. */
 pg_status pg_load_read_spring (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;

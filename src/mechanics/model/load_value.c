@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a load is at a place and time: value (x, y, z, t) times a factor of t. */
+ * Value of a load at a position and time: value (x, y, z, t) times a factor of t. */
 #include "model.h"
 #include <math.h>
 
-/* Supports, whatever quantity they prescribe. */
+/* 1: the load is a support (prescribes displacement, velocity or rotation). */
 int pg_load_prescribes (const pg_load *load)
 {
     return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY || load->kind == PG_ROTATION;
 }
 int pg_load_rotates (const pg_load *load) { return load->kind == PG_ROTATION || load->kind == PG_MOMENT; }
-/* Rotations and moments of the plane have one component, about z. */
+/* Number of components: dim; rotations and moments in 2D have one, about z. */
 int pg_load_components (const pg_load *load, int dim)
 {
     return !pg_load_rotates (load) || dim == 3 ? dim : dim == 2;
 }
-/* For messages and columns. */
+/* Axis of component k ('x', 'y', 'z'), for messages and column names. */
 char pg_load_axis (const pg_load *load, int dim, int k)
 {
     return "xyz"[pg_load_rotates (load) && dim < 3 ? 2 : k];
@@ -34,8 +34,7 @@ static double table_value (const pg_load *load, double t)
     return row[2*n - 1];
 }
 
-/* Integral of the table from its first t to t, s: what a table of a velocity is to the displacement that
- * follows from it. */
+/* Integral of the table from its first t to t, s, which gives the displacement for a table of velocities. */
 static double table_integral (const pg_load *load, double t)
 {
     const double *row = load->table;
@@ -49,8 +48,8 @@ static double table_integral (const pg_load *load, double t)
     return t > last[0] ? sum + last[1] * (t - last[0]) : sum;
 }
 
-/* The factor of time: by the table, or by the ramp, an expression that is 1 where a load has none. A
- * velocity is integrated to a displacement from t = 0, so that all supports prescribe displacements. */
+/* Time factor of a load, from its table or ramp. A velocity is integrated to a displacement from t = 0, so
+ * that all supports prescribe displacements. */
 static double factor_at (const pg_load *load, const pg_place *at)
 {
     if (!load->table) return pg_expression_value (load->ramp, at);
@@ -58,7 +57,8 @@ static double factor_at (const pg_load *load, const pg_place *at)
                                      : table_value (load, at->t);
 }
 
-/* A place as expressions see it, with radius and angle (rad, from 0 to 2 pi) about the origin. */
+/* Variables of expressions at x (m) and t, with radius (m) and angle (rad, from 0 to 2 pi) about the
+ * origin. */
 pg_place pg_place_of (int dim, const double *x, double t)
 {
     pg_place at = { x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
@@ -68,15 +68,15 @@ pg_place pg_place_of (int dim, const double *x, double t)
     return at;
 }
 
-/* A total force per area of the faces on which it acts. */
+/* Converts a total force to a traction by the area of its faces; other values are unchanged. */
 static double spread (const pg_load *load, double value)
 {
     return load->over_area > 0 ? value / load->over_area : value;
 }
 
-/* ---- a rigid turn -------------------------------------------------------------------------------------- */
-/* The displacement of a set that turns by the angles w (rad, about x, y, z) about a place: w x r of small
- * displacements; with finite ones (R - 1) r, R the rotation about the axis w by its length (Rodrigues). */
+/* ---- rigid rotation of a set --------------------------------------------------------------------------- */
+/* Component k of the displacement at x by the rotation vector w (rad) about load->about: w x r if linearised;
+ * (R - 1) r for finite rotations, R by Rodrigues' formula. */
 static double turned (const pg_load *load, int k, int dim, const double *x, const double *w)
 {
     double r[3] = { 0 }, across[3], size = sqrt (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
@@ -97,8 +97,8 @@ static double turned_by (const pg_load *load, int k, int dim, const double *x, c
     return turned (load, k, dim, x, w);
 }
 
-/* Expression at (x, t) times the factor of t. Radius and angle cost a root and an arc tangent, and are
- * only computed for expressions that use them. */
+/* Component k of a load: expression at (x, t) times the factor of t. Radius and angle cost a root and an arc
+ * tangent, and are only computed for expressions that use them. */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
 {
     if (!load->value[k]) return 0;
@@ -114,7 +114,7 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
     return spread (load, pg_expression_value (load->value[k], &at)) * factor_at (load, &at);
 }
 
-/* Does the expression change from place to place? */
+/* Returns 1: the expression depends on position. */
 int pg_depends_on_place (const pg_expression *e)
 {
     return e
