@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the model asks of the descriptor of a force (pg_method): which one the scene names, which keys it
- * ignores, which materials and failure criteria it can carry. */
+ * Use of the descriptors of force models (pg_method): choice by the scene, ignored keys, supported materials
+ * and failure criteria. */
 #include "model.h"
 #include <stdio.h>
 #include <string.h>
 
-/* By method.force; NULL: the scene names none of them. */
+/* Finds the force model named by method.force; NULL: there is none of this name. */
 const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *scene)
 {
     const char *name = pg_scene_text (scene, "method.force");
@@ -13,14 +13,14 @@ const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *
     return NULL;
 }
 
-/* Shape functions, or only the reach and kernel of bonds between points. */
+/* Reads shape functions, or (forces without) only horizon and kernel of bonds between points. */
 pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing)
 {
     if (method->shape_functions) return pg_approx_read (out, scene, spacing);
     return pg_approx_read_points (out, scene, spacing, method->kernel, method->horizon);
 }
 
-/* Thresholds are measured rates, see the descriptor. */
+/* Compares with measured thresholds (pg_method.iterate_above). */
 int pg_method_iterates (const pg_method *method, int preconditioned, int dim, double dofs)
 {
     double most = method->iterate_above[preconditioned ? 0 : 1][dim];
@@ -30,8 +30,8 @@ int pg_method_iterates (const pg_method *method, int preconditioned, int dim, do
 int pg_problem_rotations (const pg_problem *p) { return p->method ? p->method->rotations[p->dim] : 0; }
 int pg_problem_unknowns (const pg_problem *p) { return p->dim + pg_problem_rotations (p); }
 
-/* ---- which forces ... ---------------------------------------------------------------------------------- */
-/* Properties of forces for names_of, by a number that some of them need. */
+/* ---- forces with a property ---------------------------------------------------------------------------- */
+/* Tests of force models for names_of; the second argument is used by some only. */
 static int shows_all (const pg_method *m, int needs) { return !(needs & ~m->shows); }
 static int has_rotations (const pg_method *m, int dim) { return m->rotations[dim] > 0; }
 static int carries_any (const pg_method *m, int unused)
@@ -66,7 +66,7 @@ static const char *names_of (const pg_problem *p, int (*has) (const pg_method *,
     return out;
 }
 
-/* For messages: forces without shape functions; forces whose points have rotations. */
+/* Names, for messages, of forces without shape functions; below: of forces whose points have rotations. */
 const char *pg_methods_of_points (const pg_problem *p, char *out, size_t size)
 {
     return names_of (p, is_of_points, 0, out, size);
@@ -78,8 +78,8 @@ const char *pg_methods_with_rotations (const pg_problem *p, char *out, size_t si
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
-/* Keys of other forces, and essential conditions that bonds between points do not know, are no faults: a
- * scene may be run by several forces. They are listed, so that nobody believes that they count. */
+/* Notes keys that are ignored: those of other forces, and `essential` with forces without shape functions.
+ * They are no errors, as a scene may be run with several forces. */
 void pg_method_note_ignored (pg_problem *p, const pg_scene *scene)
 {
     char path[PG_STRAY_PATH], text[200] = "";
@@ -101,7 +101,7 @@ void pg_method_note_ignored (pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- materials and criteria ---------------------------------------------------------------------------- */
-/* What a force cannot carry must never be replaced in silence. */
+/* Reports materials that the force does not support as errors. */
 pg_status pg_method_check_materials (const pg_problem *p, const pg_scene *scene)
 {
     char path[120], names[160];
@@ -151,7 +151,7 @@ static const pg_criterion_type *criterion_at (size_t k)
     return *name ? pg_criterion_find (name) : NULL;
 }
 
-/* "a, b": the criteria whose needs a force can show. */
+/* "a, b": the criteria for which a force provides the measures. */
 static const char *criteria_of (const pg_method *m, char *out, size_t size)
 {
     const pg_criterion_type *type;
@@ -163,8 +163,8 @@ static const char *criteria_of (const pg_method *m, char *out, size_t size)
     return out;
 }
 
-/* A criterion that needs what the bonds of a force do not show is a fault, which names criteria that go
- * with this force, and forces that go with this criterion. */
+/* Reports a criterion whose measures the force does not provide as an error that names usable criteria and
+ * usable forces. */
 void pg_method_check_criterion (const pg_problem *p, const pg_scene *scene)
 {
     const pg_criterion_type *type = p->criterion->type;

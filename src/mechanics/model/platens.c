@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rigid platens and indenters (key `platens`): where their surfaces are, and what moves or presses them. Each
- * has up to two loads of its own behind those of `boundary`, so that ramps, stages of loading and columns of
- * results treat platens like supports: one for its displacement, one for its force. */
+ * Rigid platens and indenters (key `platens`): their surfaces and their loads. Each has up to two loads of
+ * its own, which follow those of `boundary`, so that ramps, stages of loading and columns of results treat
+ * platens like supports: one for its displacement, one for its force. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Loads of platens hold no points and no facets: what they reach shows in contact only. */
+/* Set of the loads of platens, without points and facets, as platens act by contact only. */
 static const pg_set nothing = { .name = "platen" };
 
 /* ---- surfaces ------------------------------------------------------------------------------------------ */
-/* Of a cylinder in space the part of a vector along its axis does not count. */
+/* Removes the component of v along the axis of a 3D cylinder; other shapes: unchanged. */
 static void across (const pg_platen *p, int dim, double *v)
 {
     double along = 0;
@@ -49,7 +49,7 @@ size_t pg_platens_loads (const pg_scene *scene)
     return n;
 }
 
-/* A direction of any length but zero, made a unit vector. */
+/* Reads a direction of any nonzero length into p->normal, as a unit vector. */
 static void read_direction (pg_platen *p, const pg_scene *scene, size_t i, int dim, const char *key)
 {
     char path[64];
@@ -66,7 +66,7 @@ static void read_direction (pg_platen *p, const pg_scene *scene, size_t i, int d
     for (int k = 0; k < dim && size > 0; k++) p->normal[k] /= sqrt (size);
 }
 
-/* Keys that say nothing of this shape are faults: the user means something that would not happen. */
+/* Reports keys without meaning for this shape as errors. */
 static void refuse_others (const pg_scene *scene, size_t i, const char *shape, const char *const *keys)
 {
     for (; *keys; keys++) {
@@ -108,8 +108,8 @@ static void read_shape (pg_platen *p, const pg_scene *scene, size_t i, int dim)
     p->radius = pg_scene_number (scene, "%s", path);
 }
 
-/* The factor of time, as that of loads: linear (from 0 to 1 over the run, duration in s, quasi-static 1),
- * constant, or an expression; stages of loading say it by tables. */
+/* Reads the time factor of a load: linear (from 0 to 1 over the run; duration in s, quasi-static 1),
+ * constant, or an expression; with stages of loading a table. */
 static pg_status read_ramp (pg_load *load, const pg_scene *scene, const char *path, int is_static,
                             double duration)
 {
@@ -138,8 +138,7 @@ done:
     return status;
 }
 
-/* Component k of a load of platen i: an expression of t alone, of an axis that the body has and nothing else
- * moves. */
+/* Reads component k of a load of a platen: an expression of t alone, along an axis without another load. */
 static pg_status read_component (pg_problem *problem, pg_platen *p, pg_load *load, const pg_scene *scene,
                                  const char *path, int k, const char *text)
 {
@@ -163,7 +162,7 @@ done:
     return status;
 }
 
-/* One of its loads: `displacement` or `force`. Values are the same everywhere. */
+/* Reads one load of platen i, `displacement` or `force`, which does not depend on position. */
 static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene, size_t at,
                             pg_load_kind kind, int is_static, double duration)
 {
@@ -174,7 +173,7 @@ static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene
     int found = 0, force = kind == PG_PLATEN_FORCE, second = force && p->motion >= 0;
     const char *key = force ? "force" : "displacement";
     load->kind = kind, load->set = &nothing, load->platen = (int) i + 1;
-    load->essential = PG_ESSENTIAL_NITSCHE;            /* it holds no points */
+    load->essential = PG_ESSENTIAL_NITSCHE;            /* so that it constrains no points */
     snprintf (load->name, sizeof load->name, second ? "%.57s.force" : "%.63s", p->name);
     int own = second || (force && pg_scene_given (scene, "platens[%zu].force_ramp", i));
     snprintf (path, sizeof path, "platens[%zu].%s", i, own ? "force_ramp" : "ramp");

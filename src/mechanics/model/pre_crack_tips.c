@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tips of pre-cracks. Shape functions of points beside a tip that lost some of their neighbours follow the
- * crack further than the bonds were cut: a crack that cuts every bond it meets acts as one that is longer by
- * a share of the spacing. So it cuts only what crosses it some way behind its tips (in space: its fronts). An
- * end is no tip where the body ends, or where the crack meets another. */
+ * Tips of pre-cracks. Near a tip, shape functions of points that lost some neighbours let the crack open
+ * beyond the cut bonds: a crack that cuts every bond it meets acts as one that is longer by a fraction of the
+ * spacing. Therefore bonds are cut only from a distance behind the tips (3D: fronts) on. An end where the
+ * body ends, or where the crack meets another, is no tip. */
 #include "model.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Behind the tip, in spacings, by horizon (spacings): measured on the single edge notch with Gauss points,
- * mean of 16 places of the lattice against the tip, in the plane (doc/accuracy.md, "Cracks that are there
- * before"). Approximate derivatives (pddo, nosb) follow a crack further. */
+/* Distance behind the tip without cut bonds, in spacings, by horizon (in spacings), for linear [0] and
+ * quadratic [1] basis: measured in 2D on the single edge notch with Gauss points, mean of 16 positions of the
+ * lattice relative to the tip (doc/accuracy.md, "Cracks that are there before"). Larger for approximate
+ * derivatives (pddo, nosb). */
 typedef struct { double horizon, offset; } row;
 static const row exact[2][5] = { { { 1.6, 0.07 }, { 2, 0.26 }, { 2.5, 0.45 }, { 3, 0.69 }, { 3.5, 1 } },
                                  { { 2, 0.04 }, { 2.5, 0.09 }, { 3, 0.19 }, { 3.5, 0.39 }, { 4, 0.61 } } };
@@ -20,11 +21,11 @@ static const row approximate[2][5] = {
     { { 2, 0.3 }, { 2.6, 0.48 }, { 3, 0.66 }, { 3.5, 0.94 }, { 4, 1.2 } }
 };
 enum { ROWS = 5 };
-#define WORTH_A_WARNING 0.05                           /* of the opening */
-#define BETWEEN_POINTS 0.15  /* K of an edge crack by facets, +- 1.5 % at 20 spacings: bond, lps, gmpd */
-#define NODAL 0.25  /* evaluation at the points alone: +- 0.3 by where they lie */
+#define WORTH_A_WARNING 0.05                           /* relative uncertainty of the crack opening */
+#define BETWEEN_POINTS 0.15  /* spacings; bond, lps, gmpd: from K of an edge crack, +- 1.5 % at 20 spacings */
+#define NODAL 0.25  /* spacings; nodal integration: +- 0.3 depending on positions of points */
 
-/* Linear between rows, constant beyond them. */
+/* Offset at a horizon (in spacings): linear between rows, constant beyond them. */
 static double interpolated (const row *r, size_t rows, double horizon)
 {
     size_t k = 1;
@@ -33,12 +34,12 @@ static double interpolated (const row *r, size_t rows, double horizon)
     return r[k - 1].offset + fmin (1, fmax (0, share)) * (r[k].offset - r[k - 1].offset);
 }
 
-/* Shape functions beside a tip let its faces slide further than they let them part, so that a closed tip acts
- * as one that is longer by more. Measured by K_II of a closed inclined crack of 15 spacings from its middle
- * to its tip, 12 tips on six lattices (doc/method.md, "Contact of crack faces"): without friction it is then
- * 0.8 % too high, with much friction right, as the pressure on the shorter line of contact is a little too
- * high. Linear basis; what the quadratic one adds at a horizon of 3 spacings; elsewhere as far as an open
- * tip. */
+/* Offsets of closed tips, in spacings, linear basis. Near a tip, shape functions let crack faces slide more
+ * than open, so that a closed tip acts as one that is still longer. Measured by K_II of a closed inclined
+ * crack of 15 spacings from its middle to its tip, 12 tips on six lattices (doc/method.md, "Contact of crack
+ * faces"): without friction it is then 0.8 % too high, with much friction right, as the pressure on the
+ * shorter contact line is a little too high. Quadratic basis: 0.5 spacings more than an open tip; other
+ * methods: as an open tip. */
 static const row sliding[4] = { { 1.6, 1.23 }, { 2, 0.7 }, { 2.5, 1.19 }, { 3, 1.89 } };
 
 static double closed_offset_of (const pg_problem *p, const pg_scene *scene)
@@ -51,7 +52,7 @@ static double closed_offset_of (const pg_problem *p, const pg_scene *scene)
     return fmax (p->crack.tip_offset, p->cloud.h * interpolated (sliding, 4, horizon));
 }
 
-/* In m where the local spacing is h. */
+/* Offset of open tips, m, where the local spacing is cloud.h. */
 static double offset_of (const pg_problem *p, const pg_scene *scene)
 {
     double horizon = p->form.approx.horizon / p->cloud.h;
@@ -66,24 +67,24 @@ static double offset_of (const pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- where the body is --------------------------------------------------------------------------------- */
-/* A crack as far as the body goes, for what a tip that is not quite known means. */
+/* Dimensions of a crack inside the body, from which the effect of an uncertain tip position is estimated. */
 typedef struct {
     double size, front;  /* 2D: length, m, and number of tips; 3D: area, m^2, and length of fronts, m */
-    double ligament;                                   /* of its tips, the least length of body ahead, m */
-    double spacing;                                    /* the largest at its tips, m */
-    int open;                                          /* reaches the surface */
-    size_t group;                                      /* the first crack that it hangs together with */
-    /* Box of the crack, for those that cannot touch, m. */
+    double ligament;                                   /* least length of body ahead of its tips, m */
+    double spacing;                                    /* largest local spacing at its tips, m */
+    int open;                                          /* 1: the crack reaches the surface */
+    size_t group;                                      /* first crack of the group of connected cracks */
+    /* Bounding box of the crack, m, to exclude cracks that cannot touch. */
     double low[3], high[3];
 } extent;
 
 typedef struct {
     pg_problem *p;
-    double offset;                                     /* where the local spacing is the nominal one, m */
-    extent *extent;                                    /* of each crack */
+    double offset;                                     /* offset of open tips at nominal spacing, m */
+    extent *extent;                                    /* dimensions of each crack */
 } surroundings;
 
-/* Does another crack pass through x?. */
+/* Returns 1: another crack passes through x (within the offset). */
 static int meets_other (const surroundings *s, size_t crack, const double *x)
 {
     const pg_problem *p = s->p;
@@ -93,7 +94,7 @@ static int meets_other (const surroundings *s, size_t crack, const double *x)
     return 0;
 }
 
-/* Does the crack end at x, and the body go on ahead, where no other crack takes over? */
+/* Returns 1: the crack's end x is a tip: the body continues ahead, and no other crack passes through x. */
 static int is_tip (const surroundings *s, size_t crack, const double *x, const double *ahead)
 {
     const pg_problem *p = s->p;
@@ -105,7 +106,7 @@ static int is_tip (const surroundings *s, size_t crack, const double *x, const d
     return 0;
 }
 
-/* Length of a segment inside the body. */
+/* Length of the segment a - b inside the body, m. */
 static double length_inside (const surroundings *s, const double *a, const double *b)
 {
     enum { PLACES = 100 };
@@ -128,8 +129,7 @@ static double triangle_area (const pg_crack *c, size_t i)
     return 0.5 * pg_dot3 (c->normal, n);
 }
 
-/* Area of a polygon inside the body, by triangles that one vertex has with the edges; those of a polygon that
- * is not convex cancel. */
+/* Area of a polygon inside the body, m^2, from signed triangles of its first vertex and each edge. */
 static double area_inside (const surroundings *s, const pg_crack *c)
 {
     const double *x = c->vertex;
@@ -140,7 +140,7 @@ static double area_inside (const surroundings *s, const pg_crack *c)
     return area;
 }
 
-/* A tip, or a stretch of front about x. */
+/* Adds a tip, or a piece of front of this length (m) around x, to the dimensions of a crack. */
 static void add_front (const surroundings *s, size_t crack, const double *x, const double *ahead,
                        double length)
 {
@@ -150,20 +150,20 @@ static void add_front (const surroundings *s, size_t crack, const double *x, con
     int steps = 0;
     do for (int k = 0; k < s->p->dim; k++) place[k] = x[k] + (0.25 + 0.5 * steps) * h * ahead[k];
     while (pg_problem_has_body (s->p, place) && ++steps < FAR);
-    double ligament = 0.5 * h * fmax (steps, 0.5);     /* less is not resolved */
+    double ligament = 0.5 * h * fmax (steps, 0.5);     /* half a spacing is the resolution */
     e->ligament = e->front > 0 ? fmin (e->ligament, ligament) : ligament;
     e->spacing = fmax (e->spacing, h);
     e->front += length;
 }
 
-/* Scaled with the local spacing, m. */
+/* Offset at x, m: proportional to the local spacing. */
 static double retreat_at (const surroundings *s, const double *x)
 {
     return s->offset * pg_problem_spacing_at (s->p, x) / s->p->cloud.h;
 }
 
 /* ---- kinds --------------------------------------------------------------------------------------------- */
-/* Both ends of a segment, each for itself; a short crack keeps half its length. */
+/* Finds the tips of a segment and their offsets out[2] (m); a short crack keeps half its length. */
 static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, double *out)
 {
     double t[2] = { c->vertex[2] - c->vertex[0], c->vertex[3] - c->vertex[1] }, length = hypot (t[0], t[1]);
@@ -194,7 +194,8 @@ static void outward (const pg_crack *c, const double *a, const double *b, double
     pg_unit3 (out);
 }
 
-/* An edge is a front where the body goes on ahead of some of it. */
+/* Finds the offset of each edge of a polygon, out (nvertex, m), if the body continues ahead of a part of
+ * it. */
 static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, double *out)
 {
     enum { MOST = 200 };
@@ -216,8 +217,7 @@ static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, doubl
     s->extent[k].size = area_inside (s, c);
 }
 
-/* The rim of a disc retreats as one, by the mean over its vertices in the body: the spacing at the centre is
- * another one where points are graded. */
+/* Finds the common offset of the rim of a disc, out[0] (m): the mean over its vertices in the body. */
 static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, double *out)
 {
     double rim[3], sum = 0, n = 0;
@@ -235,7 +235,7 @@ static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, do
 }
 
 /* ---- how well a tip is known --------------------------------------------------------------------------- */
-/* Do two cracks touch at a vertex of either?. */
+/* Returns 1: two cracks touch at a vertex of either. */
 static int joined (const pg_problem *p, const pg_crack *a, const pg_crack *b)
 {
     size_t dim = (size_t) p->dim;
@@ -246,7 +246,8 @@ static int joined (const pg_problem *p, const pg_crack *a, const pg_crack *b)
     return 0;
 }
 
-/* Its box, grown by what counts as touching, and by how far the vertices of a disc lie inside its rim. */
+/* Bounding box of a crack, m, enlarged by the tolerance of touching, and by the distance of the sides of a
+ * disc's polygon from its rim. */
 static void box_of (const pg_problem *p, const pg_crack *c, extent *e)
 {
     double slack = 1e-5 * p->cloud.h + (c->kind == PG_CRACK_DISC ? 0.01 * c->radius : 0);
@@ -264,7 +265,7 @@ static int boxes_meet (const extent *a, const extent *b)
            && b->low[1] <= a->high[1] && a->low[2] <= b->high[2] && b->low[2] <= a->high[2];
 }
 
-/* What hangs together counts as one crack: into the extent of its first. */
+/* Merges the dimensions of connected cracks into those of the first crack of the group. */
 static void join (const pg_problem *p, extent *e)
 {
     for (size_t k = 0; k < p->crack.given.n; k++) e[k].group = k, box_of (p, &p->crack.given.crack[k], &e[k]);
@@ -287,22 +288,23 @@ static void join (const pg_problem *p, extent *e)
     }
 }
 
-/* m: length to a tip (half of a crack inside the body), depth to a front, radius of a disc. */
+/* Characteristic length of a crack, m: length to a tip (half of an internal crack), depth to a front, radius
+ * of a disc. */
 static double length_of (const extent *e, int dim)
 {
     return (dim == 3 && !e->open ? 2 : 1) * e->size / e->front;
 }
 
-/* What moving all tips ahead by 1 m adds to the opening, of it: of a short crack 1 / length, of a deep notch
- * in tension 2 / ligament, between them the sum to a sixth; a crack inside the body feels the ligament
- * less. */
+/* Relative change of the crack opening per advance of all tips, 1/m: 1 / length of a short crack, 2 /
+ * ligament of a deep notch in tension, in between about the sum (to a sixth); internal cracks depend less on
+ * the ligament. */
 static double sensitivity (const extent *e, int dim)
 {
     return 1 / length_of (e, dim) + (e->open ? 2 : 0.4) / e->ligament;
 }
 
-/* How well tips are known, in spacings, by where they lie among the points. At the points alone it is
- * worse, for what resists few of their motions resists the opening little. */
+/* Uncertainty of tip positions, in spacings, due to their positions among the points. It is larger with nodal
+ * integration, which is less stiff against the crack opening. */
 static double known_to (const pg_problem *p)
 {
     if (!p->method->shape_functions) return BETWEEN_POINTS;
@@ -312,7 +314,7 @@ static double known_to (const pg_problem *p)
                                          : a->tip.linear;
 }
 
-/* Of the crack whose opening is known worst. */
+/* Notes the uncertainty of the crack with the most uncertain opening; a warning from 5 % on. */
 static void tell (pg_problem *p, const pg_scene *scene, extent *e)
 {
     double spacings = known_to (p), worst = 0;
@@ -337,7 +339,7 @@ static void tell (pg_problem *p, const pg_scene *scene, extent *e)
                      length_of (&e[at], p->dim) / e[at].spacing, end, 100 * worst, end, spacings, remedy);
 }
 
-/* All tips are found before any crack is shortened: an end on another crack is no tip. */
+/* Finds all tips and fronts, then sets the offsets behind them (crack.retreat). */
 pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -352,7 +354,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
         return pg_fronts_find (&ground, &p->crack.given, NULL, &p->crack.front, &p->crack.nfront);
     PG_ALLOC (made, p->crack.given.n);
     PG_ALLOC (s.extent, p->crack.given.n);
-    /* all before any: an end on another crack is none of its own */
+    /* first all cracks are examined as drawn, then offsets are set */
     for (size_t k = 0; k < p->crack.given.n; k++) {
         pg_crack *c = &p->crack.given.crack[k];
         PG_ALLOC (out, c->nvertex);
@@ -361,14 +363,14 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
         else retreat_polygon (&s, k, c, out);
         made[k] = out, out = NULL;
     }
-    /* before they retreat: cracks as drawn */
+    /* cracks as drawn, before offsets are set */
     if (p->method->shape_functions || pg_problem_grows (p)) tell (p, scene, s.extent);
     if (p->dim == 3)
         PG_TRY (pg_fronts_find (&ground, &p->crack.given, s.offset > 0 ? made : NULL, &p->crack.front,
                                 &p->crack.nfront));
     for (size_t k = 0; s.offset > 0 && k < p->crack.given.n; k++)
         p->crack.given.crack[k].retreat = made[k], made[k] = NULL;
-    PG_TRY (pg_cracks_index (&p->crack.given));             /* a segment may cut beyond its ends */
+    PG_TRY (pg_cracks_index (&p->crack.given));             /* as a segment may cut beyond its ends */
 done:
     for (size_t k = 0; made && k < p->crack.given.n; k++) pg_free (made[k]);
     pg_free (made), pg_free (out), pg_free (s.extent);

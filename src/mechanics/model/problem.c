@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages
+ * Builds a problem from a scene: body, points, cells, sets, cracks, laws, loads, bonds. Errors of all steps
  * are collected. */
 #include "model.h"
 #include <float.h>
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Keys of another dimension are faults. */
+/* Finds the mode (1D, plane stress, plane strain, 3D); keys of another dimension are reported as errors. */
 static pg_mode mode_of (const pg_scene *scene, int dim)
 {
     static const struct {
@@ -24,7 +24,7 @@ static pg_mode mode_of (const pg_scene *scene, int dim)
     return strcmp (pg_scene_text (scene, "plane"), "strain") == 0 ? PG_PLANE_STRAIN : PG_PLANE_STRESS;
 }
 
-/* The folder of `.../name/scene.yaml`, else the file's own name without ending. */
+/* Name of a problem: the folder of `.../name/scene.yaml`, else the file name without ending. */
 static void name_of (char *out, size_t size, const char *file)
 {
     const char *slash = strrchr (file, '/'), *base = slash ? slash + 1 : file;
@@ -37,8 +37,8 @@ static void name_of (char *out, size_t size, const char *file)
     snprintf (out, size, "%.*s", (int) n, n ? base : "scene");
 }
 
-/* Cells of a lattice; of a rank those around what it owns that its forces are evaluated in, where the force
- * says so. */
+/* Makes the cells of a lattice; in parallel runs those around owned points in which the force is
+ * evaluated. */
 static pg_status cells_of_lattice (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -49,14 +49,14 @@ static pg_status cells_of_lattice (pg_problem *p, const pg_scene *scene)
         return pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness);
     PG_TRY (pg_method_approx (&approx, p->method, scene, p->cloud.h));
     p->method->ghost_cells (scene, &beyond);
-    beyond += pg_scene_number (scene, "perturb.amount");   /* points are not on their sites */
+    beyond += pg_scene_number (scene, "perturb.amount");   /* as perturbed points are off their sites */
     pg_box within = pg_subdomain_cells (s, &p->lattice, approx.horizon + beyond * p->cloud.h);
     PG_TRY (pg_cells_from_part (&p->cells, &p->lattice, p->cloud.thickness, &within));
 done:
     return status;
 }
 
-/* Cells at the surface keep the part inside the body; rays give the boundaries of sets. */
+/* Makes cells cut by the surface of the body; facets are divided at the boundaries of sets (rays). */
 static pg_status cut_cells (pg_problem *p, const pg_scene *scene, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -65,7 +65,7 @@ static pg_status cut_cells (pg_problem *p, const pg_scene *scene, const pg_latti
     char doubt[200];
     PG_TRY (pg_sets_rays (&ray, &n, scene, &p->body));
     PG_TRY (pg_cells_cut (&p->cells, &p->body, lattice, p->cloud.thickness, n, ray));
-    if (!p->cells.cut && p->cloud.subdomain) {             /* fewer */
+    if (!p->cells.cut && p->cloud.subdomain) {  /* nothing is cut: uses the smaller range of cells */
         pg_cells_clear (&p->cells);
         PG_TRY (cells_of_lattice (p, scene));
     }
@@ -76,8 +76,8 @@ done:
     return status;
 }
 
-/* Cells of points from a file whose surface the shapes of the body are: those of a regular grid, which points
- * need not follow. */
+/* Makes the cells for points from a file in a body of shapes: those of a regular grid, independent of the
+ * points. */
 static pg_status cells_of_points (pg_problem *p, const pg_scene *scene, int cut)
 {
     pg_status status = PG_OK;
@@ -90,7 +90,7 @@ done:
     return status;
 }
 
-/* A fault found in one stage keeps the next from nothing that does not build on it: all are told
+/* Turns PG_E_SCENE into PG_OK and lets later independent steps continue, so that all errors are reported
  * together. */
 static pg_status pass (const pg_scene *scene, pg_status status)
 {
@@ -98,8 +98,8 @@ static pg_status pass (const pg_scene *scene, pg_status status)
     return status == PG_E_SCENE ? PG_OK : status;
 }
 
-/* Faces that touch need two sides: what lies on a crack of the scene counts as on its left, as with cracks
- * that grow, where without contact it would lose the bonds to both. */
+/* With contact, cracks of the scene become sided, like growing cracks: points on a crack count as on its left
+ * and keep their bonds to it; otherwise they lose the bonds to both sides. */
 static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
 {
     if (p->dim == 1 || strcmp (pg_scene_text (scene, "contact.kind"), "none") == 0) return PG_OK;
@@ -114,8 +114,8 @@ static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
     return pg_cracks_index (&p->crack.given);
 }
 
-/* The points of a lattice that this rank holds, with as many ghosts as the force needs; of a process that
- * stands for all ranks (perigal check), and of points that no lattice gives (divide_points), all points. */
+/* Makes the lattice points of this rank with the ghosts that the force needs; all points in a process that
+ * simulates all ranks (perigal check), and for points without lattice (see divide_points). */
 static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -132,8 +132,8 @@ done:
     return status;
 }
 
-/* Leaves of points of a file or a mesh, and of the cells around them, which every rank has made as one
- * process makes them, what this rank holds. */
+/* Divides points of a file or a mesh, and the cells around them, of which every rank has made all: keeps
+ * those that this rank stores. */
 static pg_status divide_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -141,7 +141,7 @@ static pg_status divide_points (pg_problem *p, const pg_scene *scene)
     double width, beyond, share = 1;
     int *owner = NULL;
     PG_TRY (pg_subdomain_width (&width, p->method, scene, p->dim, p->cloud.h));
-    if (p->method->ghost_cells) {                      /* as of a lattice, cells do not fill the layer */
+    if (p->method->ghost_cells) {                      /* cells fill only a part of the layer of ghosts */
         PG_TRY (pg_method_approx (&approx, p->method, scene, p->cloud.h));
         p->method->ghost_cells (scene, &beyond);
         share = (approx.horizon + beyond * p->cloud.h) / width;
@@ -154,8 +154,8 @@ done:
     return status;
 }
 
-/* Refuses a body so far from the origin that the rounding of its coordinates is no longer far below the
- * widths within which the cells look for surfaces, 1e-7 of half a spacing. */
+/* Refuses a body so far from the origin that the rounding of its coordinates is not small against the
+ * tolerance of cells in finding surfaces, 1e-7 of half a spacing. */
 static void refuse_far (const pg_problem *p, const pg_scene *scene)
 {
     double rounding = pg_rounding (p->dim, p->cloud.low, p->cloud.high), least = pg_cloud_finest (&p->cloud);
@@ -171,8 +171,8 @@ static void refuse_far (const pg_problem *p, const pg_scene *scene)
                     5e-8 * least / (4 * DBL_EPSILON));
 }
 
-/* Body, cracks, points, cells, sets, in this order; a verdict follows where the next step could not do
- * without the former. */
+/* Builds body, cracks, points, cells and sets; stops at errors (pg_scene_verdict) that the next step cannot
+ * tolerate. */
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -210,7 +210,7 @@ done:
     return status;
 }
 
-/* Limits that differ from the formula of the literature, though the scene says nothing of it. */
+/* Notes limits that differ by default from the formula of the literature (failure.calibration). */
 static void note_calibration (pg_problem *p, const pg_scene *scene)
 {
     const pg_growth *g = &p->criterion->growth;
@@ -221,8 +221,8 @@ static void note_calibration (pg_problem *p, const pg_scene *scene)
                          100 * (1 - 1 / sqrt (g->mean)), g->mean);
 }
 
-/* Criteria of all materials. Their constants derive from the material and from what the force measures
- * (limits), so that a setting is filled for each first. */
+/* Reads the criteria of all materials. Their constants derive from a setting with data of the material and
+ * the force. */
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -252,8 +252,8 @@ done:
     return status;
 }
 
-/* Materials, then the approximation (whose horizon may count in spacings), then what the force reads of
- * its keys, then the criteria, whose constants follow from all of these. */
+/* Reads materials, then the approximation (horizon, possibly in spacings), then the keys of the force, then
+ * the criteria, whose constants follow from all of these. */
 static pg_status build_laws (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -281,8 +281,8 @@ done:
     return status;
 }
 
-/* Is any point within its horizon of the place? Else a field there would be made of nothing. r is the
- * square of the distance, m^2; horizons of a graded cloud follow the spacing, by the ratio of the point. */
+/* Returns 1: x (m) lies within the horizon of some point, so that fields can be evaluated there. r: squared
+ * distance, m^2; a: horizon of the point, m, scaled by its local spacing. */
 static int sees_points (const pg_problem *p, const double *x)
 {
     size_t dim = (size_t) p->dim;
@@ -296,7 +296,7 @@ static int sees_points (const pg_problem *p, const double *x)
     return 0;
 }
 
-/* A gauge on a crack would follow either face by chance. */
+/* Reads the gauges; warns of those with an end on a crack, which could follow either face. */
 static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -339,7 +339,8 @@ double pg_gauge_opening (const pg_gauge *g, int dim, const double *a, const doub
     return length > 0 ? sum / sqrt (length) : 0;
 }
 
-/* Faults that do not hinder later stages are passed by and told together at the end. */
+/* First half of building a problem: all but the bonds. Errors that do not hinder later steps are reported
+ * together. */
 pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, const pg_method *const *methods,
                                    int threads)
 {
@@ -357,7 +358,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     p->plain = pg_scene_bool (scene, "solver.plain");
     p->equilibria = pg_scene_entry_is (scene, "solver.kind", PG_SOLVER_STATIC);
     p->quality.accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
-    /* No number until the patch test has run: NAN shows as a gap and compares false. */
+    /* NAN until the patch test has run. */
     p->quality.patch = (pg_patch) { .error = NAN, .compliance = NAN };
     const char *title = pg_scene_text (scene, "title");
     name_of (p->name, sizeof p->name, pg_scene_file (scene));
@@ -366,7 +367,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     PG_TRY (build_geometry (p, scene));
     if (pg_scene_partial (scene)) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (build_laws (p, scene));
-    /* in the plane always, as a crack may begin anywhere; in space where cracks are, or may come */
+    /* 2D: always, as a crack may begin anywhere; 3D: with cracks or crack growth */
     if (p->dim == 2 || (p->dim == 3 && (p->crack.given.n || pg_problem_grows (p))))
         PG_TRY (pg_body_search_create (&p->crack.search, &p->cloud, &p->body, &p->part));
     PG_TRY (pg_tips_retreat (p, scene));
@@ -385,7 +386,7 @@ done:
     return status;
 }
 
-/* The second half: bonds, and what only they show. Only a scene without faults gets this far. */
+/* Second half of building a problem, for scenes without errors: bonds, and checks that need them. */
 pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -408,7 +409,7 @@ done:
     return status;
 }
 
-/* Its rows have no geometry of their own. */
+/* Frees the shape functions of the intact body. */
 static void intact_free (pg_intact **intact)
 {
     for (int s = 0; *intact && s < PG_BOND_SETS; s++) pg_rows_clear (&(*intact)->rows[s]);

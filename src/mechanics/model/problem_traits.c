@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What is true of a problem: whether its cracks grow, how its loads depend on time; and remarks on it. */
+ * Properties of a problem: default criterion, crack growth, time dependence of loads; notes. */
 #include "model.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Is a limit given for all materials, or for one? */
+/* Returns 1: the limit is given in `failure` or for one of the materials. */
 static int limit_given (const pg_problem *p, const pg_scene *scene, const char *limit)
 {
     int given = pg_scene_given (scene, "failure.%s", limit);
@@ -15,9 +15,9 @@ static int limit_given (const pg_problem *p, const pg_scene *scene, const char *
     return given;
 }
 
-/* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives:
- * with an energy tips are judged where that can be, unless the scene says how bonds break; in space only if
- * it says facet. */
+/* Default criterion where `failure` names none: that of the force, or by the limits given: with a fracture
+ * energy the criterion of tips if possible (2D: unless solver.break differs; 3D: only with solver.break:
+ * facet), else that of stretch. */
 const char *pg_problem_usual_criterion (const pg_problem *p, const pg_scene *scene)
 {
     if (p->method->judged_by) return pg_criterion_by_need (p->method->judged_by);
@@ -41,7 +41,7 @@ int pg_problem_by_facets (const pg_problem *p, const pg_scene *scene)
     return type && (type->needs & PG_NEEDS_FACETS);
 }
 
-/* The last ones are dropped when there are too many. */
+/* Adds a note; beyond the maximum number notes are dropped. */
 void pg_problem_note (pg_problem *p, const char *format, ...)
 {
     va_list args;
@@ -51,22 +51,21 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
-/* Cracks are lines in two dimensions and surfaces in three: a criterion of facets makes them larger. */
+/* 1: the criterion applies to tips, so that cracks (2D: lines, 3D: surfaces) grow by facets. */
 int pg_problem_grows (const pg_problem *p)
 {
     return p->dim >= 2 && p->criterion && p->criterion->type && (p->criterion->type->needs & PG_NEEDS_FACETS);
 }
 
-/* Are all loads proportional to t, u = t u_1 and F = t F_1? Event stepping then scales one solution
- * (solve/events/event_stepping.c). A load given as an expression may be so without saying; a
- * displacement held at zero is in any case, which is tried at three places and three times that no formula
- * vanishes at by design. */
+/* Returns 1: all loads are proportional to t, u = t u_1 and F = t F_1, so that event stepping can scale one
+ * solution (solve/events/event_stepping.c). Displacements that are zero at three arbitrary positions and
+ * times count as proportional. */
 int pg_problem_proportional (const pg_problem *p)
 {
     if (p->boundary.nstage || pg_problem_strained (p)) return 0;
     for (size_t i = 0; i < p->boundary.nload; i++) {
         if (p->boundary.load[i].proportional) continue;
-        /* a displacement held at zero is proportional too */
+        /* a zero displacement is proportional, too */
         static const double places[3][3] = { { 0.37, -0.21, 0.83 },
                                              { -1.3, 2.7, 0.11 },
                                              { 5.1, 0.77, -3.9 } };
@@ -80,8 +79,8 @@ int pg_problem_proportional (const pg_problem *p)
     return 1;
 }
 
-/* Does component k of the load at this place follow a straight line between t = 0 and 1? Asked at fifteen
- * times and at the corners of a table, to rounding. */
+/* Returns 1: component k of the load at x is linear in t between 0 and 1, as tested at fifteen times and at
+ * the rows of a table, to rounding. */
 static int is_affine (const pg_load *load, int k, int dim, const double *x)
 {
     double a = pg_load_value (load, k, dim, x, 0), b = pg_load_value (load, k, dim, x, 1),
@@ -98,13 +97,12 @@ static int is_affine (const pg_load *load, int k, int dim, const double *x)
     return 1;
 }
 
-/* Do all loads follow a + b t between t = 0 and 1? Event stepping then scales the difference of two
- * solutions. A load whose place and time factors are apart is asked at one place, others at every point
- * of their set. */
+/* Returns 1: all loads are a + b t between t = 0 and 1, so that event stepping can scale the difference of
+ * two solutions. Separable loads are tested at one position, others at every point of their set. */
 int pg_problem_affine (const pg_problem *p)
 {
-    if (pg_problem_strained (p)) return 0;             /* equilibria after breaks do not know free strains */
-    if (p->boundary.nstage) return 1;                           /* each of them is so by itself */
+    if (pg_problem_strained (p)) return 0;             /* event stepping does not support free strains */
+    if (p->boundary.nstage) return 1;                           /* loads are linear within each stage */
     double middle[3] = { 0 };
     for (int k = 0; k < p->dim; k++) middle[k] = 0.37 * p->cloud.low[k] + 0.63 * p->cloud.high[k];
     for (size_t l = 0; l < p->boundary.nload; l++) {

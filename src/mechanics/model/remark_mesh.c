@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Remarks on bodies whose points lie more densely in one place than in another, and on their meshes: nodes
- * that hang on the faces of other elements; keys that count the mean spacing where the local one was perhaps
- * meant; interfaces of materials. */
+ * Remarks on meshes and graded points: hanging nodes (on faces of other elements); lengths in units of the
+ * mean spacing where the local one was perhaps meant; interfaces of materials. */
 #include "model.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Distances below this share of a face are rounding of the coordinates of a file. */
+/* Relative tolerance (of the size of a face) for rounding of coordinates in files. */
 static const double rounding = 1e-5;
 
-/* A node of the surface, and where it lies along a direction that is parallel to no face of usual meshes. */
+/* A node of the surface, and its coordinate along a direction parallel to no face of usual meshes. */
 typedef struct { double along; int node; } spot;
 
 static double along (const double *x) { return x[0] + 0.6180339887 * x[1] + 0.3819660113 * x[2]; }
@@ -22,14 +21,14 @@ static int by_place (const void *p, const void *q)
     return a->along != b->along ? (a->along < b->along ? -1 : 1) : (a->node > b->node) - (a->node < b->node);
 }
 
-/* Does x lie on the segment a b, away from its ends? */
+/* Returns 1: x lies on the segment a - b, away from its ends. */
 static int on_segment (const double *x, const double *a, const double *b)
 {
     double length = pg_distance (3, a, b), to_a = pg_distance (3, x, a), to_b = pg_distance (3, x, b);
     return fmin (to_a, to_b) > rounding * length && to_a + to_b < length * (1 + rounding * rounding);
 }
 
-/* Does x lie in the triangle a b c, its edges included? */
+/* Returns 1: x lies in the triangle a b c, its edges included. */
 static int in_triangle (const double *x, const double *a, const double *b, const double *c)
 {
     double u[3], v[3], w[3], uu = 0, uv = 0, vv = 0, uw = 0, vw = 0, off = 0;
@@ -57,15 +56,15 @@ static int corners_of (const pg_mesh *m, int e, int f, int corner[9], int *nodes
     return pg_element_types[face].corners;
 }
 
-/* Does the node lie on the face with these nodes, the first n of them corners, and is no corner of it? Of a
- * curved face its middle nodes are known, and the plane or line of its corners. */
+/* Returns 1: the node lies on the face with these nodes (the first n are corners) and is none of its corners.
+ * A curved face is represented by its middle nodes and the plane or line of its corners. */
 static int hangs (const pg_mesh *m, const int *corner, int n, int nodes, int node)
 {
     const double *x = m->x + 3 * (size_t) node, *c[4] = { x, x, x, x };
     double size = 0;
     for (int k = 0; k < n; k++) c[k] = m->x + 3 * (size_t) corner[k];
     for (int k = 1; k < n; k++) size = fmax (size, pg_distance (3, c[0], c[k]));
-    /* doubled nodes of a seam stand on corners */
+    /* duplicate nodes of unconnected elements coincide with corners */
     for (int k = 0; k < n; k++) if (pg_distance (3, x, c[k]) <= rounding * size) return 0;
     for (int k = n; k < nodes; k++)
         if (pg_distance (3, x, m->x + 3 * (size_t) corner[k]) <= rounding * size) return 1;
@@ -73,7 +72,7 @@ static int hangs (const pg_mesh *m, const int *corner, int n, int nodes, int nod
     return in_triangle (x, c[0], c[1], c[2]) || (n == 4 && in_triangle (x, c[0], c[2], c[3]));
 }
 
-/* Corners of the surface, each once, sorted along one direction; faces: n of element and side. */
+/* Lists the corner nodes of the n surface faces, each once, sorted by the coordinate `along`. */
 static pg_status sort_corners (const pg_mesh *m, size_t n, const int *element, const int *side, size_t *nspot,
                                spot **out)
 {
@@ -94,7 +93,7 @@ done:
     return status;
 }
 
-/* First spot that is not below a place. */
+/* Index of the first spot whose coordinate is at least `place` (bisection). */
 static size_t first_from (const spot *all, size_t n, double place)
 {
     size_t low = 0;
@@ -106,8 +105,8 @@ static size_t first_from (const spot *all, size_t n, double place)
     return low;
 }
 
-/* Corners of the surface that lie on a face of it and are none of its corners: the face was meant to meet the
- * smaller ones behind it, and both count as surface of the body. *hanging: marked (nnode). */
+/* Marks hanging nodes (nnode): corners of surface faces that lie on another surface face without being its
+ * corner, where unconnected elements meet and both faces count as surface. */
 static pg_status find_hanging (const pg_mesh *m, unsigned char *hanging)
 {
     pg_status status = PG_OK;
@@ -158,7 +157,7 @@ done:
     return status;
 }
 
-/* What the file of a mesh means, and what the scene computes. */
+/* Warns of a mesh with plane strain elements in a plane stress scene. */
 void pg_remark_plane (pg_problem *p)
 {
     const pg_mesh *m = &p->part.mesh;
@@ -170,7 +169,7 @@ void pg_remark_plane (pg_problem *p)
                      m->plane_strain);
 }
 
-/* Is a length given as a multiple of the spacing? */
+/* Returns 1: a length is given as a multiple of the spacing. */
 static int in_spacings (const pg_scene *scene, const char *path)
 {
     return pg_scene_length (scene, 1, "%s", path) < 0.99 * pg_scene_length (scene, 2, "%s", path);
@@ -195,7 +194,7 @@ void pg_remark_graded (pg_problem *p, const pg_scene *scene)
     char path[64];
     for (size_t i = 0; p->cloud.size && i < p->cloud.n; i++)
         least = fmin (least, p->cloud.size[i]), most = fmax (most, p->cloud.size[i]);
-    /* half as wide again as the narrowest: what a lattice of triangles has by chance is less */
+    /* a ratio of 1.5 exceeds the accidental variation in meshes of triangles */
     if (!(most > 1.5 * least)) return;
     if (pg_problem_by_facets (p, scene)) remark_key (p, scene, "solver.facet", least, most);
     if (p->dim == 2 && pg_scene_given (scene, "method.tip_offset"))
@@ -206,7 +205,8 @@ void pg_remark_graded (pg_problem *p, const pg_scene *scene)
     }
 }
 
-/* At an interface the gradient jumps, which smooth shape functions and bonds across it cannot follow. */
+/* Notes interfaces between different materials, at which smooth shape functions and bonds cannot represent
+ * the jump of the gradient. */
 void pg_remark_interfaces (pg_problem *p)
 {
     size_t used = 0, last = 0;

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a problem amounts to that its user may not have meant: a spacing larger than the body, what an alpha
- * shape makes of its points, cracks that cut
- * it into parts, materials whose contrast no discretisation of this spacing can follow. */
+ * Remarks on probably unintended input: a spacing larger than the body, unresolved walls and shapes, alpha
+ * shapes that omit points, cracks that cut the body into parts, too large contrast of materials. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* On a lattice the box is that of the body, whose surface lies beyond the outermost points; else that of
- * the points. */
+/* Bounding box, m: with a lattice that of the body, whose surface lies beyond the outermost points; else that
+ * of the points. */
 void pg_problem_box (const pg_problem *p, double *low, double *high)
 {
     for (int k = 0; k < p->dim; k++)
@@ -17,7 +16,7 @@ void pg_problem_box (const pg_problem *p, double *low, double *high)
         high[k] = p->lattice.dim ? p->body.high[k] : p->cloud.high[k];
 }
 
-/* One cell across a body resolves nothing there. A spacing in the wrong unit shows in this first. */
+/* Warns of a spacing larger than the body, which is often due to a wrong unit. */
 void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 {
     double asked, low[3], high[3];
@@ -34,14 +33,14 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* Is the value a number that has no unit? */
+/* Returns 1: the text is a number without a unit. */
 static int bare (const char *text)
 {
     return text && *text && text[strspn (text, "+-.0123456789eE ")] == '\0';
 }
 
-/* A stiffness without a unit beside lengths with one was perhaps meant in MPa or GPa: as pascals it would be
- * that of a jelly. */
+/* Warns of a small Young's modulus without a unit beside lengths with units: it was perhaps meant in MPa or
+ * GPa, but is read in Pa. */
 void pg_remark_units (pg_problem *p, const pg_scene *scene)
 {
     const char *name, *unit = pg_scene_text (scene, "mesh.unit"), *spacing = pg_scene_text (scene, "spacing");
@@ -59,7 +58,7 @@ void pg_remark_units (pg_problem *p, const pg_scene *scene)
     }
 }
 
-/* The least extent of a shape along its axes, m, and its middle; INFINITY: not known. */
+/* Least extent of a shape along its axes, m, and its middle (3, m); INFINITY: not known. */
 static double least_extent (const pg_shape *s, int dim, double *middle)
 {
     double least = 2 * s->radius;
@@ -80,13 +79,13 @@ static double least_extent (const pg_shape *s, int dim, double *middle)
 }
 
 /* ---- walls beside holes -------------------------------------------------------------------------------- */
-/* Rays around a round hole, places along its axis and along the sides of others. */
+/* Numbers of rays around a round hole, and of positions along its axis or along the sides of other holes. */
 enum { RAYS = 96, PLACES = 5 };
 
 typedef struct { const pg_problem *p; size_t hole; double least, spacing, at[3]; } thinnest;
 
-/* Thickness of the body from a place on a hole in direction e, up to a spacing there; 0: no body begins
- * there. */
+/* Thickness of the body, m, from x on the surface of a hole in direction e, at most the local spacing *h; 0:
+ * no body there. */
 static double thickness (const pg_problem *p, const double *x, const double *e, double *h)
 {
     const double inside = 1e-6;                        /* spacings */
@@ -104,8 +103,8 @@ static void take_thinnest (thinnest *t, double wall, double h, const double *x)
     memcpy (t->at, x, sizeof t->at);
 }
 
-/* Around a circle about `centre` in the plane of u and v. Where the hole opens into the surface the body ends
- * in an edge, which is no wall: nowhere is it thinner than to both sides. */
+/* Finds the thinnest wall around a circle in the plane of u and v. Edges where the hole opens into the
+ * surface are excluded: a wall must be a local minimum. */
 static void look_around (thinnest *t, const double *centre, double radius, const double *u, const double *v)
 {
     double wall[RAYS], h[RAYS], x[3 * RAYS];
@@ -123,7 +122,8 @@ static void look_around (thinnest *t, const double *centre, double radius, const
     }
 }
 
-/* Beside a straight side from a to b, to both sides of it: one of them is the hole. */
+/* Finds the thinnest wall along a straight side from a to b, in both normal directions (one of which is the
+ * hole). */
 static void look_beside (thinnest *t, const double *a, const double *b, const double *normal)
 {
     for (int q = 0; q < PLACES; q++)
@@ -159,7 +159,7 @@ static void look_at_round (thinnest *t, const pg_shape *s)
     }
 }
 
-/* Boxes, polygons and prisms: their sides in the plane of x and y, in space at places along z. */
+/* Examines the sides of boxes, polygons and prisms in the xy plane, in 3D at several z. */
 static void look_at_straight (thinnest *t, const pg_shape *s)
 {
     const double *a = s->low, *c = s->high;
@@ -177,8 +177,8 @@ static void look_at_straight (thinnest *t, const pg_shape *s)
         }
 }
 
-/* A wall thinner than the points are apart has at most one layer of them. The thinnest is named, and beside
- * how many more holes there are others. */
+/* Warns of walls beside holes that are thinner than the spacing (at most one layer of points): position of
+ * the thinnest, number of other holes. */
 void pg_remark_thin_walls (pg_problem *p)
 {
     thinnest worst = { .least = INFINITY, .spacing = 1 };
@@ -205,8 +205,8 @@ void pg_remark_thin_walls (pg_problem *p)
 }
 
 /* ---- small shapes -------------------------------------------------------------------------------------- */
-/* Of what is narrower than the points are apart they see little: of a hole which bonds it parts, of a part
- * what points it happens to hold. */
+/* Warns of shapes narrower than the spacing, which points do not resolve: a hole only cuts bonds, an added
+ * part may contain no points. */
 void pg_remark_small_shapes (pg_problem *p)
 {
     if (!p->lattice.dim) return;
@@ -227,11 +227,10 @@ void pg_remark_small_shapes (pg_problem *p)
 }
 
 /* ---- alpha shapes -------------------------------------------------------------------------------------- */
-/* From this part of twice alpha on a largest over the median radius is told: what is fine elsewhere is
- * coarse there. */
+/* Ratio of the largest to the median radius of an automatic alpha shape from which on a warning is given. */
 static const double uneven = 5;
 
-/* What the points of an alpha shape amount to, and what of them it leaves out. */
+/* Notes the properties of an alpha shape, and warns of points that it omits. */
 static void remark_cloud (pg_problem *p, const pg_shape *s, size_t i)
 {
     const pg_alpha_shape *a = pg_shape_alpha (s);
@@ -266,29 +265,29 @@ void pg_remark_clouds (pg_problem *p)
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
-/* Does a crack of the start lie between two points? */
+/* Returns 1: a pre-crack or slot cuts the bond between points i and j. */
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
     return pg_bond_cut_first (p, p->cloud.x + i * dim, p->cloud.x + j * dim);
 }
 
-/* Does a crack of the start pass through a point? */
+/* Returns 1: a pre-crack passes through point i. */
 static int on_a_crack (const pg_problem *p, size_t i)
 {
     return pg_cracks_touch (pg_state_cracks (p, NULL), p->cloud.x + i * (size_t) p->dim,
                             pg_cloud_same (&p->cloud)) != NULL;
 }
 
-/* Which points hang together by bonds that no crack cuts: their sets (parent, a union); of a rank what its
- * own points are joined with. */
+/* Unites points connected by bonds that no crack cuts into disjoint sets (parent); on each rank by bonds of
+ * its own points. */
 static void join_points (const pg_problem *p, int *parent)
 {
     const pg_family *f = &p->bonds.rows[PG_NODES].family;
     size_t n = p->cloud.n;
     pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++) {
-        int root = (int) i;                            /* of point i; most others lead to it at one look */
+        int root = (int) i;                            /* of point i; kept for speed */
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
             if (j >= i || parent[j] == root || pg_disjoint_root (parent, (int) j) == root) continue;
@@ -298,8 +297,8 @@ static void join_points (const pg_problem *p, int *parent)
     }
 }
 
-/* A part of the body: its label, how many points it has, the first of them and its place, m; on: it lies on a
- * crack. */
+/* A connected part of the body: label, number of points, number and position (m) of its first point; on: 1:
+ * that lies on a crack. */
 typedef struct { double label, count, number, x[3]; int on; } part;
 
 static int by_label (const void *a, const void *b)
@@ -309,7 +308,7 @@ static int by_label (const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-/* The parts that this rank has points of; room for one a point. */
+/* Lists the parts with points of this rank (out: n entries). */
 static size_t list_parts (const pg_problem *p, int *parent, const double *label, part *out)
 {
     size_t dim = (size_t) p->dim, n = 0;
@@ -325,7 +324,7 @@ static size_t list_parts (const pg_problem *p, int *parent, const double *label,
     return n;
 }
 
-/* What ranks have of a part becomes one. Returns how many are left. */
+/* Merges entries of different ranks for the same part; returns the number of parts. */
 static size_t merge_parts (part *all, size_t n)
 {
     size_t last = 0;
@@ -336,7 +335,8 @@ static size_t merge_parts (part *all, size_t n)
     return n ? last + 1 : 0;
 }
 
-/* Parts beside the largest one, their points, and points without any bond; a point of each kind. */
+/* Numbers of parts besides the largest, of their points, of points without bonds, of all points; an example
+ * of each. */
 typedef struct { size_t parts, beside, alone, points; const part *at, *lonely; } loose;
 
 static loose find_loose (const part *all, size_t n)
@@ -363,7 +363,7 @@ static void write_place (const pg_problem *p, const double *x, char *out, size_t
         used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", x[k]);
 }
 
-/* The remarks; of ranks the first one makes them. */
+/* Makes the remarks on loose parts (in parallel runs on rank 0). */
 static void remark_loose (pg_problem *p, const loose *l)
 {
     char place[80];
@@ -381,9 +381,8 @@ static void remark_loose (pg_problem *p, const loose *l)
     }
 }
 
-/* Warns of parts of several points that no bond joins to the rest once the cracks are cut, and of points
- * without a bond (those that lie on a crack have a remark of their own). Bonds between points decide,
- * whatever the force. */
+/* Warns of parts of several points that pre-cracks separate from the rest, and of points without a bond
+ * (points on a crack have their own remark). Point-to-point bonds are used for any force. */
 pg_status pg_remark_parts (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -407,8 +406,8 @@ done:
 }
 
 /* ---- contrast ------------------------------------------------------------------------------------------ */
-/* From here on a point of evaluation of the stiffer material holds the softer one's points that it sees.
- * Below, what it does to them is less than what a spacing more or less does. */
+/* Ratio of moduli from which evaluation points of the stiffer material make neighbouring points of the softer
+ * one practically rigid. Below, the effect is less than that of one spacing more or less. */
 static const double stark = 1e3;
 
 pg_status pg_remark_contrast (pg_problem *p)

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What linear solves of forces on shape functions cost: by a factor of K, and by conjugate gradients with
- * finite elements on the same nodes as preconditioner. Seconds by stored rates, from numbers of points, bonds
- * and unknowns: never measured, as a run must not depend on the clock. The solver chooses by these costs, and
- * the forecast of a run by the same. */
+ * Costs of linear solves of forces with shape functions: by a factor of K, and by conjugate gradients with
+ * finite elements on the same nodes as preconditioner. Estimated in seconds from stored rates and numbers of
+ * points, bonds and unknowns, not measured, as a run must not depend on the clock. The solver chooses by
+ * these costs, and the forecast of a run by the same. */
 #include "model.h"
 #include <math.h>
 
-/* Nested dissection parts a body across its longest axis by separators as thick as two nodes can be apart
- * that one point sees, 2 horizons. With s unknowns of the largest separator the factor costs about 3 s^3
- * operations (solids of n1 >= n2 >= n3 nodes along the axes: s^3 n1 / n2), in the plane 10 s^3. The numbers 3
- * and 10 were set by few bodies: a rough measure, which decides between ways that differ by factors. */
+/* Operations of a factor. Nested dissection cuts a body across its longest axis by separators as thick as the
+ * largest distance of coupled nodes, 2 horizons. With s unknowns of the largest separator the factor costs
+ * about 3 s^3 operations (solids of n1 >= n2 >= n3 nodes along the axes: s^3 n1 / n2), in 2D 10 s^3. The
+ * numbers 3 and 10 were fitted to few bodies: a rough estimate, for choices between methods whose costs
+ * differ by factors. */
 static double factor_flops (const pg_solve_counts *c)
 {
     double n[3] = { c->edge[0], c->edge[1], c->edge[2] };
@@ -23,7 +24,7 @@ static double factor_flops (const pg_solve_counts *c)
     return (c->dim > 2 ? 3 : 10) * separator * separator * separator * fmax (1, n[0] / n[1]);
 }
 
-/* Assembly visits every pair of nodes of every evaluation point. */
+/* Seconds of assembly, which visits every pair of nodes of every evaluation point. */
 double pg_solve_assembly_cost (const pg_solve_counts *c)
 {
     return 8e-9 * (c->evaluation > 0 ? 0.5 * c->bonds * c->bonds / c->evaluation : 0);
@@ -34,15 +35,16 @@ double pg_solve_direct_cost (const pg_solve_counts *c)
     return pg_solve_assembly_cost (c) + 5e-6 * c->points * c->components + factor_flops (c) / 20e9;
 }
 
-/* On scattered nodes K x is cheap, and smooth displacements on a coarse grid are what the diagonal lacks. The
- * wider the support, the less energy have patterns that alternate from node to node: then it does not do. */
+/* 1: the finite elements are on a coarse grid, for scattered nodes with narrow supports: K x is cheap then,
+ * and the grid complements the diagonal. With wider supports modes that alternate from node to node have too
+ * little energy. */
 int pg_solve_on_grid (const pg_solve_counts *c)
 {
     return c->scattered && !c->interpolates && !c->projected && c->reach <= (c->order == 2 ? 2.7 : 2.2);
 }
 
-/* Iterations to a tolerance of 1e-9, as seen: the shape functions of a wide support are far from those of
- * elements, and so is a dilatation that is projected. */
+/* Iterations to a tolerance of 1e-9, from experience: more for wide supports and projected dilatation, which
+ * differ much from finite elements. */
 static double iterations (const pg_solve_counts *c)
 {
     double count = 35;
@@ -53,7 +55,7 @@ static double iterations (const pg_solve_counts *c)
     return count * (c->projected ? 3 : 1) * (c->behind ? 6 : 1);
 }
 
-/* Set-up counts as 20 iterations; beside K x an iteration takes 0.9 us for each node: products with the
+/* Set-up counts as 20 iterations; besides K x an iteration takes 0.9 us for each node: products with the
  * element matrix and its coarse levels, and with the polynomial; on a coarse grid 0.1 us. */
 static double iterations_cost (const pg_solve_counts *c, double solves)
 {
@@ -63,14 +65,13 @@ static double iterations_cost (const pg_solve_counts *c, double solves)
 
 double pg_solve_elements_cost (const pg_solve_counts *c) { return iterations_cost (c, 1); }
 
-/* A factor that serves many events pays for itself up to here in 3D (unknowns), and its memory can be
- * afforded: some 5 GB in a cube. Iterations take some 70 for every event in a block with a crack, which is
- * four times the seconds of an event by a factor at 41 000 unknowns. */
+/* A factor that serves many events pays for itself up to here in 3D (unknowns), and fits into memory: some 5
+ * GB for a cube. Iterations take some 70 for every event in a block with a crack, which is four times the
+ * seconds of an event by a factor at 41 000 unknowns. */
 enum { EVENTS_FACTOR = 80000 };
-/* In motion the matrix k K + m M stays while nothing breaks, and what breaks is followed in its factor: taken
- * to serve so many solves before another one is needed. A plate of 55 488 unknowns, seven nodes thick: 8 s
- * for the factor, then 0.1 s a solve, where elements take 1 s; a cube of as many would need ten times the
- * factor. */
+/* Dynamics: number of solves that a factor of k K + m M is assumed to serve, as it remains valid while
+ * nothing breaks and is updated for broken bonds. A plate of 55 488 unknowns, seven nodes thick: 8 s for the
+ * factor, then 0.1 s a solve, where elements take 1 s; a cube of as many would need ten times the factor. */
 enum { MOTION_SERVES = 20 };
 
 int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, int motion)
@@ -82,13 +83,14 @@ int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, i
                && (unknowns > EVENTS_FACTOR
                    || MOTION_SERVES * pg_solve_elements_cost (c) < pg_solve_direct_cost (c));
     if (events && unknowns <= EVENTS_FACTOR) return 0;
-    double solves = unknowns <= EVENTS_FACTOR ? 1 + c->columns : 1;      /* a factor takes all at once */
+    /* a factor solves all at little extra cost */
+    double solves = unknowns <= EVENTS_FACTOR ? 1 + c->columns : 1;
     if (available && iterations_cost (c, solves) < pg_solve_direct_cost (c)) return 1;
     return unknowns > 200000;
 }
 
-/* Do the points stand at the centres of the cells, behind the surface? A body whose surface cuts cells has
- * more cells than such points; a regular lattice is known by its first point. */
+/* Returns 1: the points lie at the centres of the cells, inside the surface: as many points as cells, or,
+ * with cut cells, by the first point of a regular lattice. */
 static int stands_behind (const pg_problem *p)
 {
     if (!p->lattice.dim || p->cells.n == p->cloud.n) return p->lattice.dim > 0;
@@ -97,8 +99,8 @@ static int stands_behind (const pg_problem *p)
     return fabs (at - floor (at) - 0.5) < 0.25;
 }
 
-/* The evaluation points are those of the bulk; nodes along the edges are those of a box of the body's
- * proportions that holds as many. Without shape functions there is nothing to count. */
+/* Counts for the cost estimates; edge: nodes along the axes of a box with the body's proportions and as many
+ * nodes. All zero without shape functions. */
 pg_solve_counts pg_solve_count (const pg_problem *p)
 {
     if (!p->form.approx.type || !p->form.integration) return (pg_solve_counts) { .dim = p->dim };

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Stages of loading (`stages`): confine, load axially, unload, reload ... Each stage takes the loads that it
- * names straight from what they are to a new multiple of their value, and leaves the others as they are:
+ * Stages of loading (`stages`): confine, load axially, unload, reload ... Each stage changes the factors of
+ * the loads that it names linearly to new targets, and leaves the others unchanged:
  *
  *     f_i (t) = f_i (k - 1) + (t - k + 1) (target_ik - f_i (k - 1)),    k - 1 <= t <= k in stage k,
  *
- * f_i (0) = 0. So a run of n stages is one of t from 0 to n whose loads follow tables with a row at every
- * whole t: the mechanism of boundary[].table, and no other. A stage may end early, at its share s: the loads
- * then stay what they are there, and the row at t = k takes the value of t = k - 1 + s. Which ones do so
- * shows in the run only: pg_problem_staged gives its solver tables of its own. */
+ * f_i (0) = 0. A run of n stages goes from t = 0 to n, and its loads follow tables (as boundary[].table) with
+ * a row at every whole t. A stage may end early, at the fraction s: the row at t = k then takes the value of
+ * t = k - 1 + s. As this is known in the run only, pg_problem_staged gives the solver tables of its own. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
-/* Does the load follow the stages? With ramp: constant it acts in full from the start to the end. */
+/* Returns 1: the load follows the stages; 0: it has ramp: constant and acts fully throughout. */
 static int follows (const pg_load *load) { return load->ntable > 0; }
 
 void pg_stages_follow (pg_problem *p, const double *share)
@@ -121,7 +120,7 @@ static void list_names (const pg_problem *p, char *text, size_t size)
                                    p->boundary.load[i].name);
 }
 
-/* The loads that the stage moves, and where to. */
+/* Reads the loads that stage k changes, and their targets. */
 static pg_status read_targets (pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
 {
     pg_status status = PG_OK;
@@ -146,7 +145,7 @@ done:
     return status;
 }
 
-/* A name under `until` that refers to an entry of a list elsewhere; -1: not given, or a fault. */
+/* Index of the list entry (of n) named by stages[k].until.key; -1: not given, or an error was reported. */
 static int refer (const pg_scene *scene, size_t k, const char *key, size_t n,
                   const char *(*name_of) (const void *from, size_t i), const void *from, const char *what)
 {
@@ -168,7 +167,7 @@ static const char *load_name (const void *problem, size_t i)
     return ((const pg_problem *) problem)->boundary.load[i].name;
 }
 
-/* Of two keys that say one thing together both or none must be there. */
+/* Reports an error if only one of two keys of `until` that belong together is given. */
 static void need_both (const pg_scene *scene, size_t k, const char *a, const char *b)
 {
     int first = pg_scene_given (scene, "stages[%zu].until.%s", k, a),
@@ -178,7 +177,7 @@ static void need_both (const pg_scene *scene, size_t k, const char *a, const cha
     if (first != second) pg_scene_fault (scene, path, "goes with until.%s", first ? b : a);
 }
 
-/* What ends the stage before its loads are reached. */
+/* Reads the conditions that end stage k before its targets are reached. */
 static void read_until (const pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
 {
     char path[64];
@@ -204,7 +203,7 @@ static void read_until (const pg_problem *p, pg_stage *stage, const pg_scene *sc
     }
 }
 
-/* Do the ascending points of two sets have one in common, on any rank? All of them ask. */
+/* Returns 1: two sets have a point in common, on any rank. All ranks must call. */
 static int share_points (const pg_problem *p, const pg_set *a, const pg_set *b)
 {
     double any = 0;
@@ -215,7 +214,8 @@ static int share_points (const pg_problem *p, const pg_set *a, const pg_set *b)
     return pg_cloud_most (&p->cloud, 1, &any) == PG_OK && any > 0;
 }
 
-/* Loads on points and supports have to be elsewhere; what acts by shape functions goes with its place. */
+/* Reports loads on points and supports that share points with a removed set; loads on facets and body forces
+ * with shape functions are removed with the body. */
 static void check_loads (const pg_problem *p, const pg_set *remove, const pg_scene *scene, const char *path)
 {
     for (size_t i = 0; i < p->boundary.nload; i++) {
@@ -229,7 +229,8 @@ static void check_loads (const pg_problem *p, const pg_set *remove, const pg_sce
     }
 }
 
-/* What leaves the body may not be held, nor loaded where loads stay on points; it goes wholly, and once. */
+/* Reads the set removed in stage k and checks it: no supports or point loads on it, no early end of the
+ * stage, removed once only. */
 static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
 {
     char path[64];
@@ -256,7 +257,7 @@ static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *
                             p->boundary.stage[i].name);
 }
 
-/* Is there any value in the load that is not zero? Asked at places at which no formula vanishes by design. */
+/* Returns 1: all components of the load are zero (at three arbitrary positions). */
 static int is_zero (const pg_load *load, int dim)
 {
     static const double places[3][3] = { { 0.37, -0.21, 0.83 }, { -1.3, 2.7, 0.11 }, { 5.1, 0.77, -3.9 } };
@@ -266,7 +267,7 @@ static int is_zero (const pg_load *load, int dim)
     return 1;
 }
 
-/* A load that no stage names would silently never act. */
+/* Reports loads that no stage names, as they would never act. */
 static void find_idle (const pg_problem *p, const pg_scene *scene)
 {
     char path[64];
@@ -282,7 +283,7 @@ static void find_idle (const pg_problem *p, const pg_scene *scene)
     }
 }
 
-/* Two stages of one name could not be told apart in results. */
+/* Reports stages of equal names. */
 static void check_names (const pg_problem *p, const pg_scene *scene)
 {
     char path[64];

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The state: displacement coefficients, velocity, acceleration, alive bits, in one block; and its cracks,
- * which grow, in memory of their own: paths in the plane (crack_paths.c), surfaces in space
- * (crack_surfaces.c). */
+ * The state: displacement coefficients, velocity, acceleration, alive bits, in one block of memory; and its
+ * growing cracks in separate memory: 2D paths (crack_paths.c), 3D surfaces (crack_surfaces.c). */
 #include "model.h"
 #include <string.h>
 
-/* The arrays lie behind the struct, each after the other, so that one copy takes all: d, v, a (ndof
- * each), then the alive bits (nbond bytes). */
+/* Sets the pointers to the arrays, which follow the struct in one block, so that one copy includes all: d, v,
+ * a (ndof each), then the alive bits (nbond bytes). */
 static void place (pg_state *s)
 {
     char *base = (char *) s + (sizeof *s + 63) / 64 * 64;
@@ -16,7 +15,7 @@ static void place (pg_state *s)
     s->alive = (unsigned char *) (s->a + s->ndof);
 }
 
-/* Places that lie nearer to each other than this are one, m. */
+/* Distance below which positions of crack vertices count as equal, m. */
 static double nothing_of (const pg_problem *p) { return PG_NO_LENGTH * p->cloud.h; }
 
 pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
@@ -29,8 +28,8 @@ pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *p
     return pg_surfaces_of (out, &p->crack.given, p->crack.front, p->crack.nfront, nothing_of (p));
 }
 
-/* A facet has cut one bond at least. A vertex of a surface has cut some bond, or lies beside one that has:
- * there are not more than a hundred for each bond. */
+/* Checkpoints of cracks; upper bounds of their sizes: every 2D facet has cut at least one bond; 3D surfaces
+ * have at most a hundred vertices per bond. */
 pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const char *name, const pg_keeper *k)
 {
     return pg_paths_keep (w, (long) (p->crack.given.n + p->crack.ntip + p->bonds.first[PG_BOND_SETS]), name,
@@ -44,8 +43,8 @@ pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, con
                              k);
 }
 
-/* One block of memory; pre-cracks cut their bonds, points have the velocity that the scene gives them.
- * Solvers with unknowns of their own (components) begin at rest. */
+/* Creates the initial state: bonds across pre-cracks broken, initial velocities of the scene (zero if
+ * `components` differs from the unknowns of the problem). */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components)
 {
     pg_status status = PG_OK;
@@ -67,8 +66,8 @@ done:
     return status;
 }
 
-/* Copies the paths and surfaces, which may fail, and then the first bytes of the block: all of it, or all
- * before the alive bits. Both states must be of one problem. */
+/* Copies paths and surfaces, which may fail, and then the first `bytes` of the block (all, or all before the
+ * alive bits). Both states must belong to the same problem. */
 static pg_status copy_bytes (pg_state *to, const pg_state *from, size_t bytes)
 {
     pg_status status = PG_OK;

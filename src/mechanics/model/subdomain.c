@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What several ranks can share so far (perigal/ranks.h), before anything large is made: the rest is refused
- * with its reason, never run in part. */
+ * Checks, before anything large is built, that a scene can be divided among ranks (perigal/ranks.h); what is
+ * not supported is reported as an error with its reason. */
 #include "model.h"
 #include <stdio.h>
 #include <string.h>
 
-/* Keys that only one process can follow so far, and why. */
+/* Keys not supported in parallel runs, and why. */
 static const struct {
     const char *key, *why;
 } alone[] = {
@@ -13,7 +13,7 @@ static const struct {
     { "reference", "results are compared with a reference by one process only: perigal compare" },
 };
 
-/* What stands against a division: all of it as faults of the scene, or only how much there is. */
+/* Obstacles to a division: n: their number; quiet: 1: only counted, 0: reported as errors of the scene. */
 typedef struct { const pg_scene *scene; int quiet, n; } against;
 
 static void refuse (against *a, const char *key, const char *why)
@@ -27,7 +27,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
     return strcmp (pg_scene_text (scene, "%s", key), word) == 0;
 }
 
-/* Of forces with shape functions, which are evaluated in cells. */
+/* Checks for forces with shape functions, which are evaluated in cells. */
 static void check_cells (against *a)
 {
     char path[64];
@@ -42,7 +42,7 @@ static void check_cells (against *a)
     }
 }
 
-/* Of equilibria and implicit steps in time. */
+/* Checks for equilibria and implicit time integration. */
 static void check_implicit (against *a)
 {
     const pg_criterion_type *type = pg_criterion_find (pg_scene_text (a->scene, "failure.criterion"));
@@ -77,8 +77,8 @@ static void check_all (against *a, const pg_method *method)
     if (!pg_scene_entry_is (a->scene, "solver.kind", PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
 }
 
-/* Of shape functions off a lattice, what only the built problem knows to be refused: a dilatation that is
- * projected, supports by elimination. Where it may be, `auto` does without subdomains. */
+/* Returns 1: for shape functions without a lattice the built problem may turn out not to be divisible
+ * (projected dilatation, supports by elimination); division: auto then avoids subdomains. */
 static int may_be_refused (const pg_scene *scene, const pg_method *method)
 {
     const char *mode = pg_scene_text (scene, "method.dilatation"), *name, *surface, *how;
@@ -113,9 +113,9 @@ pg_status pg_subdomain_check (const pg_method *method, const pg_scene *scene)
     return pg_scene_verdict (scene);
 }
 
-/* How many horizons of ghosts: what the force needs; one more where bonds break by something else than what
- * their two ends show, as points that die by their energy look at all their bonds; one more where bonds weigh
- * by how full the families of both ends are. */
+/* Number of horizons of ghosts: those of the force; one more if breaking depends on more than the two ends of
+ * a bond (such as the energy of a point, a sum over all its bonds); one more with a surface correction, which
+ * depends on the families of both ends. */
 static double ghost_layers (const pg_method *method, const pg_scene *scene, int dim, const pg_approx *approx,
                             double h)
 {
@@ -141,7 +141,8 @@ pg_status pg_subdomain_width (double *width, const pg_method *method, const pg_s
     pg_approx approx = { 0 };
     double beyond;
     PG_TRY (pg_method_approx (&approx, method, scene, h));
-    /* off a lattice volumes fall over a spacing about the horizon, and points are not on their sites */
+    /* without a lattice partial volumes extend half a spacing beyond the horizon, and perturbed points are
+     * off their sites */
     double amount = pg_scene_number (scene, "perturb.amount");
     if (method->ghost_cells) {
         *width = method->ghosts * approx.horizon + (method->ghost_cells (scene, &beyond) + 2 * amount) * h;

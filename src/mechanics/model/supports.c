@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Supports beside each other: which points and facets each of them holds, whether two of them contradict each
- * other there, and whether those by elimination are too many. */
+ * Checks of supports: whether two of them contradict each other at common points or facets, and whether those
+ * by elimination are too many. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -9,8 +9,7 @@
 enum { LOOKS = 5 };                                    /* times of the run at which values are compared */
 typedef struct { const int *item; size_t n; } held;
 
-/* The next item that both ascending lists hold, at *i and *k; 0: there are no more. In the shared order
- * of both lists, so that all of them take one pass. */
+/* Finds the next item in both ascending lists from *i and *k on, in one pass; 0: there are no more. */
 static int next_common (const held *a, const held *b, size_t *i, size_t *k)
 {
     while (*i < a->n && *k < b->n) {
@@ -21,7 +20,7 @@ static int next_common (const held *a, const held *b, size_t *i, size_t *k)
     return 0;
 }
 
-/* How many items two ascending lists share. */
+/* Number of common items of two ascending lists. */
 static size_t common (const held *a, const held *b)
 {
     size_t i = 0, k = 0, n = 0;
@@ -29,12 +28,11 @@ static size_t common (const held *a, const held *b)
     return n;
 }
 
-/* Does the support hold facets, by Nitsche's terms, rather than points? */
+/* Returns 1: the support acts on facets by Nitsche's method, 0: on points. */
 static int by_facets (const pg_load *load) { return load->essential == PG_ESSENTIAL_NITSCHE; }
 
-/* What two supports share: facets, or points where one of them holds points. The corner that a face shares
- * with the points of another is no contradiction for the weak form (Nitsche's) of the face, unless one of
- * them lies all in the other. */
+/* Kind of the common items of two supports: PG_FACETS, PG_NODES, or -1: none. Common points of a support by
+ * Nitsche's method and one on points (at corners) count only if one set contains the other. */
 static int shared (const pg_load *a, const pg_load *b, held *first, held *second)
 {
     *first = (held) { a->set->facet, a->set->nfacet }, *second = (held) { b->set->facet, b->set->nfacet };
@@ -45,8 +43,8 @@ static int shared (const pg_load *a, const pg_load *b, held *first, held *second
     return n ? PG_NODES : -1;
 }
 
-/* Times at which a load may differ from what it is at the end: at parts of the run, and at the rows of
- * both tables. */
+/* Time number `look` at which two loads are compared: LOOKS fractions of the run, then the rows of both
+ * tables. */
 static double time_of (const pg_load *a, const pg_load *b, double duration, size_t look)
 {
     if (look < LOOKS) return duration * (double) (LOOKS - look) / LOOKS;
@@ -56,8 +54,8 @@ static double time_of (const pg_load *a, const pg_load *b, double duration, size
 
 typedef struct { double here, there, t, x[3]; size_t differ; } conflict;
 
-/* Do two supports want different values of component k at what they share? Compared at several times of
- * the run and at the rows of both tables; how many places differ, and the first of them. */
+/* Compares component k of two supports at their common items, at several times of the run and at the rows of
+ * both tables: number of items with different values, and the first of them. */
 static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b, int k, int kind, held first,
                          held second, double duration)
 {
@@ -80,14 +78,14 @@ static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b
     return c;
 }
 
-/* What the scene calls it: displacement, velocity or rotation. */
+/* Key of the support in the scene: displacement, velocity or rotation. */
 static const char *key_of (const pg_load *load)
 {
     return load->kind == PG_VELOCITY ? "velocity" : load->kind == PG_ROTATION ? "rotation" : "displacement";
 }
 
-/* A corner that two sides share has to go with one of them: that is told. More than half of a support
- * that another contradicts is a mistake, and a fault. */
+/* Reports a conflict: a warning for common corners, where the first support prevails; an error if more than
+ * half of the smaller support is contradicted. */
 static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int k, int kind, size_t smaller,
                   const conflict *c)
 {
@@ -117,15 +115,15 @@ static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int 
                          other);
 }
 
-/* Both prescribe component k of the same quantity. */
+/* Returns 1: both supports prescribe component k of the same quantity. */
 static int comparable (const pg_load *a, const pg_load *b, int k)
 {
     return pg_load_prescribes (a) && pg_load_prescribes (b) && pg_load_rotates (a) == pg_load_rotates (b)
            && a->set && b->set && a->value[k] && b->value[k];
 }
 
-/* Looks at every pair of supports; the first of them wins where both hold a point. duration: s,
- * quasi-static 1. */
+/* Checks every pair of supports for conflicts; the first prevails at common points. duration: s, quasi-static
+ * 1. */
 void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
 {
     for (size_t l = 1; l < p->boundary.nload; l++)
@@ -142,8 +140,8 @@ void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
         }
 }
 
-/* Elimination makes full matrices of the points prescribed in one direction, unless shape functions are 1 at
- * their own point. */
+/* Returns 1: the support is imposed by elimination, with dense matrices over the points prescribed in one
+ * direction (not for interpolating shape functions). */
 static int eliminates (const pg_problem *p, const pg_load *load)
 {
     return p->method->shape_functions && !p->form.approx.type->interpolates && load->set
