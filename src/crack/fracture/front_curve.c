@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double step = 0.125;                      /* of u, for how the frame turns */
+static const double step = 0.125;                      /* difference of u for derivatives of the frame */
 
 static double unit (double *a)
 {
@@ -16,7 +16,7 @@ static double unit (double *a)
     return size;
 }
 
-/* Coordinate k of vertex i, which may lie one beyond an end. */
+/* Coordinate k of vertex i, m, which may be one beyond an end of the front. */
 static double vertex (const pg_front *f, long i, size_t k)
 {
     long n = (long) f->n;
@@ -28,7 +28,7 @@ static double vertex (const pg_front *f, long i, size_t k)
     return 3 * a - 3 * b + f->x[3 * (size_t) (end + 2 * inward) + k];
 }
 
-/* Place, frame and speed, without the turn. */
+/* Position, frame and speed at u, without `turn`. */
 static void frame_at (const pg_front *f, double u, front_place *out)
 {
     long i = (long) floor (u);
@@ -49,7 +49,8 @@ static void frame_at (const pg_front *f, double u, front_place *out)
     pg_cross3 (n, t, e);
 }
 
-/* db/ds by differences of the frames on both sides: turn_1 = n'.t, turn_2 = -e'.t, turn_3 = e'.n. */
+/* Computes all of front_place at u; db/ds by differences of frames: turn_1 = n'.t, turn_2 = -e'.t, turn_3 =
+ * e'.n. */
 void front_at (const pg_front *f, double u, front_place *out)
 {
     front_place low, high;
@@ -76,7 +77,7 @@ void front_turn_vector (const double *frame, const double *v, double *out)
 
 void front_turn_tensor (const double *frame, const double *T, double *out)
 {
-    double rows[9];                                    /* of the frame times T */
+    double rows[9];                                    /* frame times T */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             rows[3*i + j] = frame[3*i] * T[j] + frame[3*i + 1] * T[3 + j] + frame[3*i + 2] * T[6 + j];

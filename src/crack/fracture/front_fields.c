@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a measurement of tips and fronts needs of a problem: the material, and the fields at the places of its
- * integrals, in the frame of the front, with the forces that act there. */
+ * Data for the integrals at tips and fronts: the material, and the fields and forces at integration points,
+ * in the frame of the front. */
 #include "gradient_fit.h"
 #include "front.h"
 #include <math.h>
@@ -31,8 +31,8 @@ tip_material material_at (const pg_problem *p, size_t node)
                                                      : 0 };
 }
 
-/* ---- what acts ----------------------------------------------------------------------------------------- */
-/* Does a load act on the body around the node? */
+/* ---- loads --------------------------------------------------------------------------------------------- */
+/* Returns 1: the load is a body force on the node. */
 static int acts (const pg_load *load, size_t node)
 {
     for (size_t i = 0; load->kind == PG_BODY_FORCE && i < load->set->npoint; i++)
@@ -46,7 +46,7 @@ int has_body_force (const pg_problem *p, size_t node)
     return 0;
 }
 
-/* A component of a load in field `at`: of t[at], less that of t[0] for the second. */
+/* Component c of a load at x in field `at`: its value at t[at], less that at t[0] for the second field. */
 static double load_of (const measuring *m, const pg_load *load, int c, const double *x, int at)
 {
     double value = pg_load_value (load, c, m->p->dim, x, m->t[at]);
@@ -121,7 +121,7 @@ void places_clear (front_places *q)
     memset (q, 0, sizeof *q);
 }
 
-/* Arrays of numbers for each place, once. */
+/* Allocates an array with `each` numbers per point, if not yet done. */
 static pg_status make_room (double **array, const front_places *q, size_t each)
 {
     pg_status status = PG_OK;
@@ -130,7 +130,8 @@ done:
     return status;
 }
 
-/* A gradient (dim x dim), or a stress xx yy zz xy yz zx as far as it lies in the plane, as a tensor. */
+/* A gradient (dim x dim) as a 3 x 3 tensor; stress_tensor: a stress xx yy zz xy yz zx (2D: in-plane
+ * components only). */
 static void gradient_tensor (size_t dim, const double *G, double T[9])
 {
     memset (T, 0, 9 * sizeof *T);
@@ -144,7 +145,7 @@ static void stress_tensor (size_t dim, const double *s, double T[9])
     memcpy (T, dim == 3 ? full : plane, 9 * sizeof *T);
 }
 
-/* Mean of the normal stresses of a stress less that of a gradient. */
+/* Mean normal stress of s less that of the gradient G, Pa. */
 static double excess_of (int dim, const tip_material *m, const double *s, const double *G)
 {
     double full[6];
@@ -208,9 +209,9 @@ done:
     return status;
 }
 
-/* The pressure p of the cracks, subtracted from the whole body, leaves faces that are free: J and K are the
- * same, the stress along the crack is larger by it. Its strain is p / (3 lambda + 2 mu) in all directions, in
- * the plane p / (2 k), k = 2 mu / (kappa - 1) the modulus of in-plane dilatation. */
+/* Adds the uniform stress p to a field, which frees crack faces of the pressure p: J and K are unchanged, T
+ * is larger by p. The strain is p / (3 lambda + 2 mu) in all directions, in 2D p / (2 k), k = 2 mu / (kappa -
+ * 1) the modulus of in-plane dilatation. */
 static void free_faces (const tip_material *m, double pressure, double *H, double *S)
 {
     double nu = 0.25 * (3 - m->kappa), strain = m->dim == 3
@@ -219,9 +220,9 @@ static void free_faces (const tip_material *m, double pressure, double *H, doubl
     for (int i = 0; i < m->dim; i++) H[4*i] += strain, S[4*i] += pressure;
 }
 
-/* Frees faces that touch of their tractions: the uniform stress sigma_22, sigma_12, sigma_23 of the frame,
- * all others zero, is subtracted, without its rotation. What is left has free faces, so that its K_II and
- * K_III are those of the front, and K_I is zero. */
+/* Frees faces in contact of their tractions by subtracting the uniform stress sigma_22, sigma_12, sigma_23
+ * (frame components) and its strain, without rotation. K_II and K_III of the rest are those of the front, and
+ * K_I is zero. */
 static void part_faces (const tip_material *m, const double stress[3], double *H, double *S)
 {
     double nu = 0.25 * (3 - m->kappa), E = 2 * m->mu * (1 + nu), along = (m->kappa - 3) * stress[0]
@@ -244,8 +245,8 @@ void places_part (front_places *q, const measuring *m, int a, size_t k)
     if (m->pressure[a] != 0) free_faces (&s->material, m->pressure[a], H, S);
 }
 
-/* - rho a into the loads, rho v_i v_i,1, and the kinetic energy into the term of W: W and T stand together,
- * so that the gradient of the weight sees both. */
+/* Adds inertia: - rho a to the loads, rho v_i v_i,1, and the kinetic energy, which is integrated together
+ * with W. */
 static pg_status add_inertia (front_places *q, const measuring *m)
 {
     pg_status status = PG_OK;
@@ -259,7 +260,7 @@ static pg_status add_inertia (front_places *q, const measuring *m)
     for (size_t k = 0; k < n; k++) {
         const cross_section *s = &m->section[q->of[k]];
         double sum = 0, square = 0;
-        for (size_t c = 0; c < dim; c++) {             /* v_i v_i,1, the derivative being along e */
+        for (size_t c = 0; c < dim; c++) {             /* v_i v_i,1, with the derivative along e */
             double along = 0;
             for (size_t j = 0; j < dim; j++) along += q->gradient[9*k + dim * c + j] * s->at.frame[j];
             sum += v[3*k + c] * along, square += v[3*k + c] * v[3*k + c];
@@ -293,7 +294,7 @@ done:
     return status;
 }
 
-/* ---- what is known ------------------------------------------------------------------------------------- */
+/* ---- results ------------------------------------------------------------------------------------------- */
 void measured_nothing (pg_tip_field *out)
 {
     double none[PG_TIP_NUMBERS];
@@ -313,7 +314,7 @@ void measured_closed (pg_tip_field *out, int nfield)
     out->closed = 1;
     for (int a = 0; a < nfield; a++) {
         out->K[0][a] = out->K_wide[0][a] = 0, out->T[a] = NAN;
-        for (int b = 0; b < nfield; b++) out->J_near[a][b] = NAN;      /* one ring: nothing to compare with */
+        for (int b = 0; b < nfield; b++) out->J_near[a][b] = NAN;      /* no second ring to compare with */
     }
     pg_tip_energy (out, nfield, out->K_wide, out->J);
 }
@@ -331,10 +332,9 @@ void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double 
     }
 }
 
-/* In space the share s of modes II and III is left as the interaction integrals have it, K^2 (1 - s) E' J /
- * size^2 + s K^2: a front that slides acts as one some tenths of a spacing further ahead, which J feels and K
- * about the place where it is drawn does not to first order (doc/method.md, "The front of a crack in
- * space"). */
+/* In 3D, with s the fraction of modes II and III in size^2, K^2 becomes K^2 ((1 - s) E' J / size^2 + s): the
+ * effective position of a sliding front is some tenths of a spacing further ahead, which changes J, but K
+ * about the drawn position not to first order (doc/method.md, "The front of a crack in space"). */
 void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K)
 {
     double J, size = 0, share = 0;
@@ -349,7 +349,7 @@ void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, dou
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l)
 {
     double J = 0, near = 0;
-    /* Domains that are as wide up to rounding are one: their difference would say 1e-16. */
+    /* Rings of equal width (up to rounding) give no uncertainty. */
     if (!(f->wide > f->near * (1 + 1e-6))) return NAN;
     for (int a = 0; a < nfield; a++)
         for (int b = 0; b < nfield; b++) J += l[a] * l[b] * f->J[a][b], near += l[a] * l[b] * f->J_near[a][b];

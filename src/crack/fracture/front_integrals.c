@@ -58,13 +58,13 @@ double front_weight (double r, double r1, double r2, double *slope)
     return z <= 0 ? 1 : z >= 1 ? 0 : 1 - z * z * (3 - 2 * z);
 }
 
-/* sigma_ij H_ik for k, j. */
+/* sigma_ij H_ik, summed over i. */
 static double flux (const double *S, const double *H, int k, int j)
 {
     return S[j] * H[k] + S[3 + j] * H[3 + k] + S[6 + j] * H[6 + k];
 }
 
-/* sigma : eps; what lies in the plane first. */
+/* sigma : eps, in-plane terms first. */
 static double work (const double *S, const double *H)
 {
     return S[0] * H[0] + S[4] * H[4] + S[1] * (H[1] + H[3])
@@ -83,7 +83,7 @@ static void turned (const double *w, const double *T, double *out)
         }
 }
 
-/* W of two fields at place k. */
+/* Bilinear energy density W_ab of two fields at point k, J/m^3. */
 static double energy (const front_sample *a, const front_sample *b, const tip_material *m, size_t k)
 {
     const double *G = a->H + 9*k, *H = b->H + 9*k;
@@ -93,12 +93,12 @@ static double energy (const front_sample *a, const front_sample *b, const tip_ma
     return W + 0.25 * (x * h + y * g) + 0.5 * x * y / m->lambda;
 }
 
-/* ---- the terms of one place ---------------------------------------------------------------------------- */
-/* Of two fields; J takes half of what each makes of the other, I the whole: P_11 and P_12 without W; W; what
- * stands with Q and the hat; with Q and hat'; loads times what moves them along; kinetic terms. */
+/* ---- terms of the integrands at one point -------------------------------------------------------------- */
+/* Terms of the integrand of two fields. share: 1/2 for J (mean of both orders), 1 for I; flux: P_11 and P_12
+ * without W; W; core: factor of Q hat; along: factor of Q hat'; load: loads times u,1; kinetic terms. */
 typedef struct { double share, flux[2][2], W, core, along, load[2], kinetic, moving; } terms;
 
-/* All but the one with hat', for the weight Q of the gradient g. */
+/* Integrand without the term in hat', for the weight Q with gradient g. */
 static double at_weight (const terms *t, double Q, const double g[2])
 {
     double sum = t->share * (t->flux[0][0] * g[0] + t->flux[0][1] * g[1]
@@ -113,7 +113,7 @@ static double work_along (const front_sample *f, size_t k, const double *H)
     return load ? load[0] * H[0] + load[1] * H[3] + load[2] * H[6] : 0;
 }
 
-/* P_kj of J for two fields, without W. */
+/* P_kj of J for two fields at a point, without W. */
 static double flux_of_two (const front_sample *a, const front_sample *b, size_t place, int k, int j)
 {
     return 0.5 * (flux (a->S + 9*place, b->H + 9*place, k, j) + flux (b->S + 9*place, a->H + 9*place, k, j));
@@ -135,7 +135,7 @@ static terms terms_of_J (const front_sample *a, const front_sample *b, const tip
     return out;
 }
 
-/* An exact field at a place: A, S, and L times their derivatives along t. */
+/* An exact field at a point: gradient A, stress S, and L times their derivatives along t. */
 typedef struct { double A[9], S[9], A_t[9], S_t[9]; } exact;
 
 static void exact_at (int field, const tip_material *m, const double *w, double r, double theta, exact *out)
@@ -169,7 +169,8 @@ static terms terms_of_I (const front_sample *f, const exact *x, size_t k, const 
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* The weight of each radius at a place, and its gradient times L; core: the place is next to the front. */
+/* Weight Q of each radius at a point, and its gradient times L; core: 1: the point is within front_core of
+ * the front. */
 typedef struct { double area, Q[FRONT_RADII], g[FRONT_RADII][2]; int radii, core; } weights;
 
 static weights weights_at (const measuring *m, const cross_section *s, const front_places *q, size_t k,
@@ -184,7 +185,7 @@ static weights weights_at (const measuring *m, const cross_section *s, const fro
     return out;
 }
 
-/* A place into the sums of all radii, which are `each` numbers apart. */
+/* Adds a point to the sums of all radii, which are `each` numbers apart. */
 static void add (const weights *w, const terms *t, size_t each, double *sum, double *along)
 {
     for (int i = 0; i < w->radii; i++, sum += each, along += each) {
@@ -202,14 +203,14 @@ static void add_I (front_sums *out, const weights *w, const terms *t, int x, int
     add (w, t, 2 * FRONT_FIELDS, &out->I[0][x][a], &out->I_along[0][x][a]);
 }
 
-/* J of two fields is the same in both orders. */
+/* Completes J of two fields by symmetry. */
 static void mirror (front_sums *out)
 {
     for (int i = 0; i < FRONT_RADII; i++)
         out->J[i][0][1] = out->J[i][1][0], out->J_along[i][0][1] = out->J_along[i][1][0];
 }
 
-/* The mean of the strain along the front over places between one spacing and the smallest radius. */
+/* Adds a point to the mean strain along the front (points between one spacing and the smallest radius). */
 static void add_strain (front_sums *out, const measuring *m, const cross_section *s, const front_places *q,
                         size_t k, double L)
 {
@@ -226,7 +227,7 @@ void front_integrals (front_sums *out, const measuring *m, const cross_section *
                       size_t first, size_t last)
 {
     const tip_material *material = &s->material;
-    double ring = 0;                                   /* area of the places that the strain is taken from */
+    double ring = 0;                                   /* area of the points used for the mean strain */
     memset (out, 0, sizeof *out);
     for (size_t k = first; k < last && s->radii; k++) {
         double r = q->r[k], theta = q->theta[k];
@@ -255,7 +256,7 @@ void front_integrals (front_sums *out, const measuring *m, const cross_section *
     for (int i = 0; i < 2 && ring > 0; i++) out->strain[i] /= ring, out->by_K[i] /= ring;
 }
 
-/* A force at one place counts times the weight there instead of an integral. */
+/* A point force contributes its term times the weight, without integration. */
 void front_force_integrals (front_sums *out, const measuring *m, const cross_section *s,
                             const front_places *q, size_t k, double A[FRONT_FIELDS][9])
 {
@@ -290,8 +291,8 @@ void tip_face_integrals (front_sums *out, const measuring *m, const front_places
     mirror (out);
 }
 
-/* r (S_i3 A_i1) of modes II and III with each other does not depend on r: equal angles around, which sum
- * trigonometric polynomials exactly. */
+/* r (S_i3 A_i1) of modes II and III combined does not depend on r; it is integrated over equal angles, which
+ * is exact for trigonometric polynomials. */
 double front_core_along (const tip_material *m, double h)
 {
     enum { ANGLES = 64 };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * J, K_I, K_II, K_III and T along a front in space. Cross sections lie twice between two vertices and serve
- * all of them; a vertex takes those within three vertices of it, weighed by the hat 1 - |u - i| / 3: fields
- * of points follow the front in steps of the lattice, and a narrower hat shows the steps.
+ * J, K_I, K_II, K_III and T along a 3D front. There are two cross sections between neighbouring vertices; a
+ * vertex uses those within three vertices, with the weight (hat) 1 - |u - i| / 3: discrete fields follow the
+ * front in steps of the lattice, which narrower hats would show.
  *
- * All cross sections in the hat of a vertex have one radius, the largest that there is room for at all of
- * them: 4 spacings for J, 3 for K, which tells the direction; then 2.25 and 1.5. Where one has no room for
- * that either, the hats that reach it are narrower, 2 vertices or 1, then there is no number. */
+ * All cross sections in the hat of a vertex use the largest radius that is possible at all of them: 4
+ * spacings for J, 3 for K, which determines the direction; else 2.25 or 1.5. Where a cross section has no
+ * room for that, the hats that contain it are narrowed to 2 vertices or 1; else there is no result. */
 #include "front.h"
 #include <math.h>
 #include <string.h>
@@ -13,23 +13,23 @@
 enum { CHUNK = 16 };                                   /* cross sections that are sampled at a time */
 
 typedef struct {
-    measuring m;                                       /* its spacing: the largest along the front */
+    measuring m;                                       /* m.h: largest spacing along the front */
     const pg_front *front;
-    const pg_front_faces *faces;                       /* of each vertex; NULL: they do not touch */
-    pg_nearest *near;                                  /* among the points; NULL: all are alike */
-    double *width;                                     /* of the hat of each vertex, in vertices */
+    const pg_front_faces *faces;                       /* contact at each vertex; NULL: none */
+    pg_nearest *near;  /* search for nodes; NULL: all have the same material and loads */
+    double *width;                                     /* half width of the hat of each vertex, in vertices */
 } front_line;
 
 /* ---- faces that touch ---------------------------------------------------------------------------------- */
-/* The vertices before and behind u. */
+/* The vertices i, j on both sides of u. */
 static void beside (const pg_front *f, double u, size_t *i, size_t *j)
 {
     *i = (size_t) floor (u) % f->n;
     *j = f->closed ? (*i + 1) % f->n : *i + 1 < f->n ? *i + 1 : *i;
 }
 
-/* The uniform stress that faces carry at u in a field, linear between the vertices beside it, in that frame.
- * 0: one of the vertices is open, or faces is NULL. */
+/* Uniform contact stress (sigma_22, sigma_12, sigma_23, Pa) of a field at u, in the frame, interpolated
+ * between vertices. Returns 0: a neighbouring vertex is open, or faces is NULL. */
 static int faces_at (const pg_front *f, const pg_front_faces *faces, int field, double u, const double *frame,
                      double stress[3])
 {
@@ -43,13 +43,13 @@ static int faces_at (const pg_front *f, const pg_front_faces *faces, int field, 
         double shear = (1 - share) * a->shear[field][k] + share * b->shear[field][k];
         along += frame[k] * shear, across += frame[6 + k] * shear;
     }
-    /* forces on the face that the normal shows to are those of the stress behind it, turned round */
+    /* tractions on the face on the side of the normal are minus the stress components */
     stress[0] = -((1 - share) * a->pressure[field] + share * b->pressure[field]);
     stress[1] = -along, stress[2] = -across;
     return 1;
 }
 
-/* How far a tube around open vertices at u may reach, m. */
+/* Distance from the front at u to the nearest closed faces, m: bound of the radius at open vertices. */
 static double faces_clear (const pg_front *f, const pg_front_faces *faces, double u)
 {
     size_t i, j;
@@ -66,7 +66,8 @@ static size_t node_at (const front_line *l, const double *x)
     return l->near ? (size_t) pg_nearest_find (l->near, x, NULL, NULL) : 0;
 }
 
-/* Does the surface end the front so near to a place that it does not count there? */
+/* Returns 1: the front ends on the surface (or another crack) within `limit` (m) of x, so that the surface is
+ * ignored there. */
 static int is_tail (const pg_front *f, const double *x, double limit)
 {
     for (size_t end = 0; !f->closed && end < f->n; end += f->n - 1) {
@@ -77,7 +78,7 @@ static int is_tail (const pg_front *f, const double *x, double limit)
     return 0;
 }
 
-/* Where the cross sections are, what they are of, and how much room each has. */
+/* Sets position, material and largest radius of all cross sections. */
 static void place_sections (front_line *l)
 {
     measuring *m = &l->m;
@@ -98,7 +99,7 @@ static void place_sections (front_line *l)
     }
 }
 
-/* Places of cross section j, those that are needed: within its room, and in the body. */
+/* Adds the integration points of cross section j that lie within its radius and in the body. */
 static void add_places (const measuring *m, const front_places *ring, size_t j, front_places *q)
 {
     const cross_section *s = &m->section[j];
@@ -113,7 +114,7 @@ static void add_places (const measuring *m, const front_places *ring, size_t j, 
     }
 }
 
-/* Samples the cross sections, some at a time, and sums them. */
+/* Evaluates the fields at the cross sections, CHUNK at a time, and integrates. */
 static pg_status measure_sections (const measuring *m)
 {
     pg_status status = PG_OK;
@@ -139,8 +140,8 @@ done:
 }
 
 /* ---- vertices ------------------------------------------------------------------------------------------ */
-/* How wide the hat of vertex i is, in vertices: on short loops half of them; narrower where a cross section
- * in it has no room, for a number that follows the lattice more tells more than none. */
+/* Half width of the hat of vertex i, in vertices: on short loops half of them; narrower if it would contain a
+ * cross section without room. */
 static double hat_width (const front_line *l, size_t i)
 {
     const pg_front *f = l->front;
@@ -151,8 +152,8 @@ static double hat_width (const front_line *l, size_t i)
     return clear >= 1 ? fmin (width, floor (clear)) : width;
 }
 
-/* The hat of vertex i at cross section j times the length of front that this stands for (m), and its
- * derivative along the front times that length. 0: it does not reach so far. */
+/* Hat of vertex i at cross section j times the length of the section (m), and its derivative along the front
+ * times that length. Returns 0: outside the hat. */
 static int hat_at (const front_line *l, size_t i, size_t j, double *hat, double *slope)
 {
     const pg_front *f = l->front;
@@ -167,7 +168,7 @@ static int hat_at (const front_line *l, size_t i, size_t j, double *hat, double 
     return 1;
 }
 
-/* Frame and room of vertex i; returns how many radii there is room for. */
+/* Sets frame and room of vertex i; returns the number of possible radii. */
 static int begin_vertex (const front_line *l, size_t i, pg_tip_field *out)
 {
     const measuring *m = &l->m;
@@ -202,7 +203,8 @@ static int begin_vertex (const front_line *l, size_t i, pg_tip_field *out)
     return radii;
 }
 
-/* Sums of the hat of vertex i over radius number r, without the core along the front. */
+/* Averages the integrals for radius number r over the hat of vertex i, without the core terms along the
+ * front. */
 static void sum_vertex (const front_line *l, size_t i, int r, double J[2][2], double I[FRONT_FIELDS][2],
                         double strain[2], double by_K[2])
 {
@@ -231,7 +233,7 @@ static void sum_vertex (const front_line *l, size_t i, int r, double J[2][2], do
 }
 
 /* K = E'/2 I for modes I and II, mu I for mode III; T = E' (I + nu strain along the front), without the
- * strain that K itself makes at the places where it was taken. */
+ * strain due to K itself. */
 static void fill_vertex (const front_line *l, size_t i, int radii, pg_tip_field *out)
 {
     const measuring *m = &l->m;
@@ -251,7 +253,7 @@ static void fill_vertex (const front_line *l, size_t i, int radii, pg_tip_field 
     }
 }
 
-/* K of mode k, field a, between the vertices at u; 0 where it is not known. */
+/* K of mode k, field a, interpolated at u; 0 where it is not known. */
 static double between (const pg_front *f, const pg_tip_field *v, double u, int k, int a)
 {
     size_t n = f->n, i = (size_t) u % n, next = (i + 1) % n;
@@ -259,7 +261,7 @@ static double between (const pg_front *f, const pg_tip_field *v, double u, int k
     return isnan (K) ? 0 : K;
 }
 
-/* What the core adds along the front: int hat' c K_II K_III to J, int hat' c K_III, K_II to the interaction
+/* Adds the core terms along the front: int hat' c K_II K_III to J, int hat' c K_III, K_II to the interaction
  * integrals of modes II and III. */
 static pg_status add_core (const front_line *l, pg_tip_field *v)
 {
@@ -275,7 +277,7 @@ static pg_status add_core (const front_line *l, pg_tip_field *v)
         tip_material material = material_at (m->p, node_at (l, v[i].x));
         double c = front_core_along (&material, m->h), sum[2][2] = { { 0 } }, J[2][2] = { { 0 } }, total = 0;
         for (size_t j = 0; j < m->n; j++) {
-            double K[2][2], u = m->section[j].u;       /* II, III of both fields */
+            double K[2][2], u = m->section[j].u;       /* modes II, III of both fields */
             if (!hat_at (l, i, j, &hat, &slope)) continue;
             total += hat;
             for (int a = 0; a < m->nfield; a++)
@@ -299,7 +301,8 @@ done:
 }
 
 /* ---- along the front ----------------------------------------------------------------------------------- */
-/* 1/4, 1/2, 1/4; beyond an end, or a vertex that is not known, there is the vertex itself. */
+/* Smooths the results along the front with weights 1/4, 1/2, 1/4; a missing neighbour is replaced by the
+ * vertex itself. */
 static pg_status smooth (const pg_front *f, pg_tip_field *v)
 {
     pg_status status = PG_OK;
@@ -322,8 +325,8 @@ done:
     return status;
 }
 
-/* Ends on the surface of the body: on the line through the second and third vertex from there, for the
- * surface has a singularity of its own (Bazant and Estenssoro 1979), and half of the hat is missing. */
+/* Extrapolates results at ends on the surface linearly from the third and fourth vertex, for the surface has
+ * a singularity of its own (Bazant and Estenssoro 1979), and half of the hat is missing. */
 static void extrapolate (const pg_front *f, pg_tip_field *v)
 {
     if (f->closed || f->n < 5) return;
@@ -339,7 +342,7 @@ static void extrapolate (const pg_front *f, pg_tip_field *v)
     }
 }
 
-/* ---- all of it ----------------------------------------------------------------------------------------- */
+/* ---- measurement --------------------------------------------------------------------------------------- */
 static pg_status prepare (front_line *l)
 {
     pg_status status = PG_OK;

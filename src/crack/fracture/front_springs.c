@@ -2,30 +2,30 @@
  * Springs that act on points within the rings of a tip, or in the tube around a front. A spring of stiffness
  * k whose other end is at g pulls a point with the force - k (u - g): a body force that follows the
  * displacement, so that it has the term of body forces in J and in the interaction integrals, summed over the
- * points instead of integrated. It needs the displacement and its gradient at the points. In space each point
- * counts in the cross section that it is nearest to, in equal shares where it is as near to two, over the
- * length of front that these stand for.
+ * points instead of integrated. It needs the displacement and its gradient at the points. In 3D each point
+ * contributes to the nearest cross section (equally to several equally near ones), divided by the length of
+ * front of that section.
  *
- * The exact fields grow without bound towards the tip, where a point may lie. What a point does there is
- * spread over a disc as large as what belongs to it. */
+ * The exact fields grow without bound towards the tip, where a point may lie. Therefore the force of a point
+ * is spread over a disc of the size of the point's volume. */
 #include "front.h"
 #include <math.h>
 #include <string.h>
 
-enum { DISC_RADII = 2, DISC_ANGLES = 8 };              /* of the places in a disc */
+enum { DISC_RADII = 2, DISC_ANGLES = 8 };              /* integration points of a disc */
 static const double pi = 3.14159265358979323846;
 
-/* A point that a spring pulls: number within the set of its load; radius of what belongs to it, m. */
+/* A point with a spring: load and index in its set; size: radius of the point's volume, m. */
 typedef struct { const pg_load *load; size_t at; double size; } pull;
 
-/* The points that springs pull, one after the other, as places of cross sections; area: share over the length
- * of front, 1/m. A point that several springs pull is there as often. */
+/* All points with springs, as points of cross sections; area: share over the length of front, 1/m. A point
+ * with several springs appears several times. */
 typedef struct { front_places q; pull *pull; size_t capacity; } pulls;
 
 static size_t point_of (const pull *one) { return (size_t) one->load->set->point[one->at]; }
 
-/* Where x lies in the slice of a cross section; returns how far from its middle, INFINITY: not in it, or
- * outside its tube. */
+/* Polar coordinates of x in the slice of a cross section; returns the distance from its centre, m; INFINITY:
+ * outside the slice or the tube. */
 static double place_in (const measuring *m, const cross_section *s, const double *x, double *r, double *theta)
 {
     double y[3] = { 0 };
@@ -36,7 +36,7 @@ static double place_in (const measuring *m, const cross_section *s, const double
     return *r >= most || fabs (y[2]) > 0.75 * s->length ? INFINITY : hypot (*r, y[2]);
 }
 
-/* Appends a pull on x in the sections that are nearest; counts them where there is no room yet. */
+/* Appends a spring to the nearest cross sections; only counts if the arrays are not yet allocated. */
 static void add_nearest (const measuring *m, const pull *one, pulls *out)
 {
     const double *x = m->p->cloud.x + point_of (one) * (size_t) m->p->dim;
@@ -70,8 +70,8 @@ static void add_all (const measuring *m, pulls *out)
     }
 }
 
-/* The gradient of an exact field around r, theta, as the mean over a disc that does not reach across the
- * crack. */
+/* Gradient of an exact field at r, theta, as the mean over a disc, mirrored at the crack so that it does not
+ * cross it. */
 static void mean_gradient (int field, const tip_material *m, double r, double theta, double size, double *A)
 {
     double x = r * cos (theta), y = r * sin (theta), at[DISC_RADII], w[DISC_RADII], H[9];
@@ -80,7 +80,7 @@ static void mean_gradient (int field, const tip_material *m, double r, double th
     pg_gauss_rule (DISC_RADII, at, w);
     for (int i = 0; i < DISC_RADII; i++)
         for (int j = 0; j < DISC_ANGLES; j++) {
-            /* equal weights in the square of the radius are equal areas */
+            /* points equidistant in the square of the radius represent equal areas */
             double away = size * sqrt (0.5 * (1 + at[i])), angle = 2 * pi * (j + 0.5) / DISC_ANGLES;
             double a = x + away * cos (angle), b = y + away * sin (angle);
             if (a < 0 && b * y < 0) b = -b;
@@ -89,7 +89,7 @@ static void mean_gradient (int field, const tip_material *m, double r, double th
         }
 }
 
-/* Force of the springs of point i at x whose displacement is u, N, in the frame. */
+/* Force of the springs of point i at x with displacement u, N, in the frame. */
 static void pull_of (const measuring *m, const pg_load *load, size_t i, const double *x, const double *u,
                      int at, const double *frame, double *force)
 {
@@ -104,8 +104,8 @@ static void pull_of (const measuring *m, const pg_load *load, size_t i, const do
     front_turn_vector (frame, scene, force);
 }
 
-/* A point that no other one sees, such as one on a crack, has no gradient, and what pulls it pulls nothing
- * else. */
+/* Returns 1 and zeroes the fields: the point has no neighbours (on a crack) and no gradient, so that its
+ * spring force does not act on the body. */
 static int is_alone (front_sample *f, size_t k)
 {
     double sum = f->excess ? f->excess[k] : 0;
@@ -170,7 +170,7 @@ pg_status springs_spread (front_places *q, const measuring *m, int at)
     for (size_t l = 0; l < p->boundary.nload; l++) {
         const pg_load *load = &p->boundary.load[l];
         if (load->kind != PG_SPRING) continue;
-        memset (of, 0, p->cloud.n * sizeof *of);       /* 1 + number within the set */
+        memset (of, 0, p->cloud.n * sizeof *of);       /* 1 + index in the set */
         for (size_t i = 0; i < load->set->npoint; i++) of[load->set->point[i]] = 1 + i;
         for (size_t k = 0; k < q->n; k++) {
             size_t node = (size_t) pg_nearest_find (near, q->x + 2*k, NULL, NULL);

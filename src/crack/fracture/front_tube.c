@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The tube around a front: the places of its cross sections, and how thick it may be. It must hold nothing
- * but one material and the two faces of its own crack: rays in the plane across the front find where the body
- * ends (16 of them), where another crack passes (those that do not lead back), and behind the front where the
- * crack ends that the faces belong to (a slim front, or one that has turned). Supports and loads on points,
- * but springs, and points of another material, count where they lie in the slice that the cross section
- * stands for.
+ * The tube around a front: integration points of its cross sections, and its largest radius. It may contain
+ * only one material and the two faces of its own crack: 16 rays in the plane across the front find where the
+ * body ends; rays not directed backwards find other cracks; behind the front it is tested that the crack
+ * continues (not so for a slim or kinked crack). Supports, loads on points except springs, and points of
+ * another material limit the radius where they lie in the slice of the cross section.
  *
- * Places: Gauss points on pieces of the radius that end where a radius ends, four on each of eight arcs; none
- * lies on the crack, at theta = +-pi. */
+ * Integration points: Gauss points on radial pieces that end at the radii of front_radius, four on each of
+ * eight arcs; none lies on the crack, at theta = +-pi. */
 #include "front.h"
 #include <math.h>
 #include <string.h>
@@ -40,10 +39,11 @@ done:
 }
 
 /* ---- room ---------------------------------------------------------------------------------------------- */
-enum { RAYS = 16, STEPS = 4, HALVINGS = 20 };          /* steps of a ray in a spacing */
-static const double open_from = 0.6, behind_from = 1.2;                   /* spacings */
-/* rad: a crack within so much of the direction back is taken for the faces, near the front and farther out;
- * spacings: what is near */
+enum { RAYS = 16, STEPS = 4, HALVINGS = 20 };          /* STEPS: steps of a ray per spacing */
+/* start of tests for cracks, for faces, in spacings */
+static const double open_from = 0.6, behind_from = 1.2;
+/* half angles (rad) about the backward direction in which a crack counts as the front's own faces, near the
+ * front and farther out; limit of `near`, spacings */
 static const double near_wedge = 1.05, far_wedge = 0.35, kink = 3;
 
 typedef struct { const pg_problem *p; const pg_cracks *cracks; const front_place *at; double h; } view;
@@ -59,7 +59,8 @@ static int is_cut (const view *v, const double *x, const double *y)
     return pg_cracks_cut (v->cracks, x, y, pg_cloud_same (&v->p->cloud)) != NULL;
 }
 
-/* Whether the ray is free up to r: no surface, or no other crack. */
+/* Returns 1: the ray at angle theta is inside the body at distance r (below: meets no other crack up to
+ * r). */
 static int free_of_surface (const view *v, double r, double theta)
 {
     double x[3];
@@ -74,8 +75,8 @@ static int free_of_cracks (const view *v, double r, double theta)
     return r <= open_from * v->h || !is_cut (v, x, y);
 }
 
-/* At r behind the front the two faces are there: a crack lies across an arc (as chords) about the direction
- * back. */
+/* Returns 1: the crack extends to distance r behind the front: it crosses an arc (as chords) about the
+ * backward direction. */
 static int has_faces (const view *v, double r, double theta)
 {
     enum { CHORDS = 6 };
@@ -89,7 +90,7 @@ static int has_faces (const view *v, double r, double theta)
     return 0;
 }
 
-/* The largest r up to which a question is answered yes in steps, then by bisection. */
+/* Largest r, m, up to which the test `ask` is true: by steps, then bisection. */
 static double reach (const view *v, int (*ask) (const view *, double, double), double theta, double from,
                      double limit)
 {
@@ -110,7 +111,7 @@ static double reach (const view *v, int (*ask) (const view *, double, double), d
     return limit;
 }
 
-/* Distance of a point in the plane across the front; INFINITY: it lies in another slice. */
+/* Distance of x from the front in the plane across it, m; INFINITY: outside the slice. */
 static double across (const view *v, const double *x)
 {
     double d[3], along = 0, square = 0;
@@ -121,7 +122,7 @@ static double across (const view *v, const double *x)
     return fabs (along) > 0.75 * v->h ? INFINITY : sqrt (fmax (0, square - along * along));
 }
 
-/* To points with a support on them, or a force that is in no integral. */
+/* Reduces the room to the nearest point with a support or a point force. */
 static double room_of_loads (const view *v, double room, int *load)
 {
     const pg_problem *p = v->p;
@@ -137,7 +138,7 @@ static double room_of_loads (const view *v, double room, int *load)
     return room;
 }
 
-/* Are the fields of two materials alike: same stiffness, so that a front does not feel where they meet? */
+/* Returns 1: nodes i and j have equal stiffness, so that their interface does not affect the front. */
 static int alike (const pg_problem *p, size_t i, size_t j)
 {
     const pg_material *a = pg_problem_law (p, PG_NODES, i), *b = pg_problem_law (p, PG_NODES, j);
@@ -153,7 +154,7 @@ int front_at_interface (const pg_problem *p, const double *x, double distance)
     size_t nearest = 0;
     double least = INFINITY;
     if (p->nmaterial == 1) return 0;
-    for (int pass = 0; pass < 2; pass++)               /* the nearest point, then all within the distance */
+    for (int pass = 0; pass < 2; pass++)  /* first the nearest point, then all within the distance */
         for (size_t i = 0; i < p->cloud.n; i++) {
             double d = 0;
             for (size_t k = 0; k < 3; k++) d = hypot (d, p->cloud.x[3*i + k] - x[k]);
@@ -164,7 +165,7 @@ int front_at_interface (const pg_problem *p, const double *x, double distance)
     return 0;
 }
 
-/* To points of a material whose stiffness is not that of the nearest one. */
+/* Reduces the room to the nearest point of a material of different stiffness. */
 static double room_of_interfaces (const view *v, double room)
 {
     const pg_problem *p = v->p;

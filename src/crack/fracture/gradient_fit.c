@@ -1,36 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The displacement gradient for forces without shape functions: moving least squares (Lancaster and
- * Salkauskas 1981) through the displacements of the points that a place sees.
+ * Salkauskas 1981) through the displacements of the points visible from a position.
  *
- * A place x sees the nearest point i that no crack hides from it (all of them where several are as near), and
- * those of i's neighbours whose bond with i lives and that no crack hides from x either: so neither a crack
- * that is geometry nor one that is only broken bonds is looked across. In z = (x_j - x) / R, R three local
- * spacings, the polynomial sum_a c_a p_a (z) with p = 1, z_k, z_k z_l minimises sum_j w_j (u_j - p (z_j) c)^2
- * with w = (1 - |z|^2)^2; the gradient at x is c_k / R. The quadratic basis is exact for quadratic fields;
- * where too few points are left (a corner between crack faces) the linear one serves, and where even these
- * lie on a line there is no gradient. */
+ * From x are visible: the nearest point i that no crack separates from it (all, if several are equally near),
+ * and neighbours of i with an intact bond to i that no crack separates from x; so the fit crosses neither
+ * geometric cracks nor cracks of broken bonds. In z = (x_j - x) / R, R three local spacings, the polynomial
+ * sum_a c_a p_a (z) with p = 1, z_k, z_k z_l minimises sum_j w_j (u_j - p (z_j) c)^2 with w = (1 - |z|^2)^2;
+ * the gradient at x is c_k / R. The quadratic basis is exact for quadratic fields; with too few points (a
+ * corner between crack faces) the linear one is used; if these lie on a line there is no gradient. */
 #include "gradient_fit.h"
 #include "held_points.h"
 #include <math.h>
 #include <string.h>
 
-/* Terms of the quadratic basis in 3D, and the radius of the fit in local spacings: 28 points of a plane
- * lattice, about 14 beside a crack, for the six terms of the plane. */
+/* Terms of the quadratic basis in 3D, and the radius of the fit in local spacings: 28 points of a 2D lattice,
+ * about 14 beside a crack, for the six terms in 2D. */
 enum { MOST_TERMS = 10, MOST_FIELDS = 2 };
 static const double reach = 3;
-/* Pivots of the normal equations below this share of their diagonal entry: the points do not determine
- * the term. */
+/* Relative pivot of the normal equations, by degree, below which the points do not determine a term. */
 static const double flat[3] = { 0, 1e-4, 1e-6 };
-/* The sum of the weights of all displacements in a gradient, times the local spacing: it is 7.6 at the worst
- * place within .9 spacings of a half plane or half space of a lattice, 22 of a quarter. Where the quadratic
- * basis has more, such as beside two rows of points that are not quite straight, the linear one serves. */
+/* Limit of the sum of |weights| of displacements in a gradient, times the local spacing (noise
+ * amplification): 7.6 at the worst position within 0.9 spacings of a half plane or half space of a lattice,
+ * 22 of a quarter. Above it, such as beside two rows of points that are not quite straight, the linear basis
+ * is used. */
 static const double loud = 25;
 
 struct gradient_fit {
     const pg_problem *problem;
     const pg_state *state;
     pg_nearest *near;
-    unsigned char *held;                               /* nodes: 1 held, 2 not, 0 not yet asked for */
+    unsigned char *held;  /* per node: 1: constrained by bonds, 2: not, 0: not yet tested */
 };
 
 pg_status gradient_fit_create (gradient_fit **out, const pg_problem *problem, const pg_state *state)
@@ -56,7 +55,7 @@ void gradient_fit_free (gradient_fit **fit)
     pg_free (*fit), *fit = NULL;
 }
 
-/* What hides points from a place. */
+/* The cracks that may hide points. */
 typedef struct { const pg_problem *problem; const pg_cracks *cracks; } view;
 
 /* 1: a crack lies between the place and the point (pg_refuse). */
@@ -78,8 +77,8 @@ static int basis (int dim, int degree, const double *z, double *term)
     return n;
 }
 
-/* Sums of one fit: the moments (terms x terms), and for each field and component the right-hand side. With
- * `row`, the coefficients of the gradient, the sizes of its weights are summed instead. */
+/* Sums of one fit: the moments (terms x terms), and right-hand sides for each field and component. If `row`
+ * (coefficients of the gradient) is set, |weights| of the gradient are summed instead. */
 typedef struct {
     int terms, degree;
     const double *row;                                 /* dim x terms */
@@ -93,7 +92,7 @@ static int is_held (const gradient_fit *fit, size_t j)
     return fit->held[j] == 1;
 }
 
-/* Adds point j to the sums, unless it lies beyond the radius or bonds do not hold it. */
+/* Adds point j to the sums, unless it lies beyond the radius or is not constrained by bonds. */
 static void add_point (const gradient_fit *fit, sums *s, const double *x, size_t j, size_t n,
                        const double *const *d)
 {
@@ -121,7 +120,7 @@ static void add_point (const gradient_fit *fit, sums *s, const double *x, size_t
                 s->side[(f * dim + c) * m + a] += w * term[a] * d[f][j * stride + c];
 }
 
-/* A place, and the points through which it sees others. */
+/* A position x, and its nearest visible points, whose neighbours are used. */
 typedef struct {
     const gradient_fit *fit;
     view v;
@@ -129,7 +128,7 @@ typedef struct {
     size_t n, from[PG_NEAREST_MOST];
 } site;
 
-/* The sums over what x sees from its points. */
+/* Sums over all points visible from x. */
 static void add_all (site *at, sums *s, size_t n, const double *const *d)
 {
     const gradient_fit *fit = at->fit;
@@ -147,7 +146,7 @@ static void add_all (site *at, sums *s, size_t n, const double *const *d)
     }
 }
 
-/* Whether the gradient of a fit whose moments are factored is made of large parts that cancel. */
+/* Returns 1: the gradient of the (factored) fit amplifies noise too much (see loud). */
 static int is_loud (site *at, sums *s)
 {
     size_t dim = (size_t) at->fit->problem->dim, m = (size_t) s->terms;
@@ -163,7 +162,8 @@ static int is_loud (site *at, sums *s)
     return most > loud * reach;
 }
 
-/* Moments of a degree, factored, and right-hand sides; 0: the points do not determine its terms. */
+/* Computes factored moments and right-hand sides for a degree; returns 0: the points do not determine its
+ * terms. */
 static int fit_degree (site *at, sums *s, int degree, size_t n, const double *const *d)
 {
     double none[3] = { 0 }, term[MOST_TERMS], radius = s->radius;
@@ -174,7 +174,8 @@ static int fit_degree (site *at, sums *s, int degree, size_t n, const double *co
     return degree == 1 || !is_loud (at, s);
 }
 
-/* The stress is that of the material of the nearest point and the gradient. */
+/* Displacement, stress and gradient at n positions; without shape functions by the fit, stress from the
+ * gradient and the material of the nearest point. */
 pg_status gradient_sample (const pg_problem *p, const pg_force_type *force, void *self,
                            const pg_state *state, const double *d, size_t n, const double *x, double *u,
                            double *stress, double *gradient)
@@ -196,7 +197,7 @@ done:
     return status;
 }
 
-/* Displacement (3 numbers, or NULL) and gradient of field f by a fit of that degree; 0: no numbers. */
+/* Extracts displacement (3, m, or NULL) and gradient of field f from the fit; NAN if its degree is 0. */
 static void take_field (sums *s, size_t f, size_t dim, double *u, double *gradient)
 {
     double none = s->degree ? 0 : NAN;
@@ -210,7 +211,7 @@ static void take_field (sums *s, size_t f, size_t dim, double *u, double *gradie
     }
 }
 
-/* The quadratic fit, else the linear one. */
+/* Tries the quadratic fit, then the linear one; returns the degree. */
 int gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const double *const *d, double *u,
                      double *gradient)
 {

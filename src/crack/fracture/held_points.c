@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Nodes that live bonds hold: between two cracks that lie closer together than a horizon a node may keep
- * bonds in one direction alone, and moves across it as whatever it was solved with has it. */
+ * Nodes constrained by intact bonds. A node between two cracks closer together than a horizon may keep bonds
+ * in one direction only; its displacement across is then arbitrary. */
 #include "held_points.h"
 
-/* Forces along bonds: the tensor sum n n' of the directions of live bonds is definite. Its least eigenvalue
- * against the largest one says how flat the bonds lie; they are nearly a line where their stiffness across
- * is lost in the rounding of that along them. */
+/* Returns 1: the intact bonds of node i span all directions, which central forces need: the tensor sum n n'
+ * of their directions is positive definite, by the ratio of its least to its largest eigenvalue. */
 static int spans (const pg_problem *p, const unsigned char *alive, size_t i)
 {
     const double flat = 1e-9;

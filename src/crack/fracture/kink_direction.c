@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a crack goes: across the direction of the largest hoop stress around its tip (Erdogan and Sih 1963,
- * On the crack extension in plates under plane loading and transverse shear). There K_I sin theta + K_II (3
- * cos theta - 1) = 0, whose root in tension is
+ * Direction of growth: along the radius of the largest hoop stress around the tip (Erdogan and Sih 1963, On
+ * the crack extension in plates under plane loading and transverse shear). There K_I sin theta + K_II (3 cos
+ * theta - 1) = 0, whose root in tension is
  *
  *   tan (theta / 2) = - 2 K_II / (K_I + sqrt (K_I^2 + 8 K_II^2)),
  *
@@ -9,14 +9,13 @@
  * cos (theta / 2) (K_I cos^2 (theta / 2) - 3/2 K_II sin theta).
  *
  * That is the direction of an infinitely short facet. Over the length l of a facet a compression -T along the
- * crack brings a shear of its own, which vanishes if K_I in the direction counts for K_I - 3.19 T sqrt (l)
- * (from K_II + theta (K_I / 2 - 1.6 T sqrt (l)) = 0 to first order in theta): next to nothing for ordinary
- * cracks, but without it wing cracks of closed cracks, where K_I is small, swing from side to side. So that
- * the first kink of an ordinary crack stays that of the closed form on any spacing, only what exceeds 0.2 K_I
- * counts.
+ * crack causes an additional shear, which vanishes if K_I in the direction counts for K_I - 3.19 T sqrt (l)
+ * (from K_II + theta (K_I / 2 - 1.6 T sqrt (l)) = 0 to first order in theta): negligible for ordinary cracks,
+ * but without it wing cracks of closed cracks, where K_I is small, zigzag. Only the excess over 0.2 K_I is
+ * used, so that the first kink of an ordinary crack is that of the closed form at any spacing.
  *
- * The magnitude comes from J, the ratio from K: of J a discretisation knows more (a stress along the crack
- * falsifies the interaction integrals of a field that is not exact, J is a work). */
+ * The magnitude is taken from J, the ratio from K, as J is more accurate (a T stress disturbs the interaction
+ * integrals of an inexact field). */
 #include "perigal/fracture.h"
 #include <math.h>
 
@@ -35,8 +34,8 @@ int pg_kink (double J, double K_I, double K_II, double T, double l, double *angl
 }
 
 /* ---- behind a kink ------------------------------------------------------------------------------------- */
-/* K at the end of a trial facet at `theta`, between the angles of the trials by the polynomial through them
- * (Lagrange). */
+/* K_I, K_II at the end of a trial facet at angle theta, by Lagrange interpolation between the trial
+ * angles. */
 static void at_end (const pg_tip_field *f, int nfield, const double *l, double theta, double K[2])
 {
     K[0] = K[1] = 0;
@@ -49,9 +48,9 @@ static void at_end (const pg_tip_field *f, int nfield, const double *l, double t
     }
 }
 
-/* Three times the mean of K_II / K_I along a facet. Behind a turn it changes with the root of the length, so
- * that the end has two thirds of the mean and the begin, known to first order in the angle, one. NAN: the end
- * does not open. */
+/* Three times the mean of K_II / K_I along a facet, which changes with the root of the length: two thirds of
+ * the mean come from its end, one third from its beginning (to first order in the angle). NAN: the end does
+ * not open. */
 static double shear (const pg_tip_field *f, int nfield, const double *l, const double K[3], double theta)
 {
     double end[2];
@@ -65,7 +64,7 @@ int pg_kink_ahead (const pg_tip_field *f, int nfield, const double *l, double st
     double K[3], step = (f->trial_angle[PG_TIP_TRIALS - 1] - f->trial_angle[0]) / STEPS, found = NAN;
     if (!(f->trial > 0)) return 0;
     pg_tip_combine (f, nfield, l, NULL, K, NULL);
-    for (int i = 0; i < STEPS; i++) {                  /* the root next to the first guess */
+    for (int i = 0; i < STEPS; i++) {                  /* finds the root nearest to `start` */
         double a = f->trial_angle[0] + i * step, b = a + step, fa = shear (f, nfield, l, K, a),
                fb = shear (f, nfield, l, K, b);
         if (!(fa <= 0) || !(fb >= 0)) continue;

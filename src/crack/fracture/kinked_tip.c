@@ -1,42 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Stress intensity factors of a tip behind a kink. No ring around the tip itself is good for them: the fields
- * of a straight crack are not those of a crack that turns inside the ring, and what lies within two spacings
- * of a kink is a property of the points. So the ring lies around the kink, outside of all that has turned.
- * With free faces and without body force Betti's integral of two fields is the same around every path,
- * whatever the crack does inside: with the field h, s of a weight function of the polyline (kinked_weights.c)
+ * Stress intensity factors of a tip behind a kink. A ring around the tip itself is unsuitable: exact fields
+ * of a straight crack do not apply if the crack turns inside the ring, and the discrete field within two
+ * spacings of a kink is inaccurate. So the ring lies around the kink, outside the kinked part. With free
+ * faces and without body force Betti's integral of two fields is the same around every path, whatever the
+ * crack does inside: with the field h, s of a weight function of the polyline (kinked_weights.c)
  *
  *   K = - int (sigma_ij h_i - s_ij u_i) q,j dA.
  *
- * Outside of the kink a field is a sum of terms that grow from it (what loads it) and of terms that decay
- * (what the kink answers). The weight functions decay, and decaying terms have no such integral with each
- * other: what the points make of the kink drops out, and what loads it is resolved. For the same reason the
- * ring tells K at the end of a facet that does not exist yet.
+ * Outside of the kink a field is a sum of terms that grow with distance (loading) and terms that decay
+ * (response of the kink). The weight functions decay, and the integral of two decaying terms vanishes: errors
+ * of the discrete response drop out, the loading is well resolved. Therefore the ring also gives K at the end
+ * of a facet that does not exist yet.
  *
- * Body force and tractions of the faces. A stress that bears the body force b at the kink and leaves the
- * straight faces free, sigma_11 = - b_1 x_1, sigma_22 = - b_2 x_2, is subtracted, and the uniform stress of
- * a pressure on all faces. What is left has tractions on the new pieces alone, whose K at the end is that of
- * same system of dislocations (kinked_faces); body force beyond that of the kink adds
- * int (b - b (kink)) . h q dA over the ring. Springs count as the body force that they are in the mean.
+ * Body force and tractions of the faces. A stress in equilibrium with the body force b at the kink and leaves
+ * the straight faces free, sigma_11 = - b_1 x_1, sigma_22 = - b_2 x_2, is subtracted, and the uniform stress
+ * of a pressure on all faces. The rest has tractions on the pieces after the kink only, whose K follows from
+ * the same system of dislocations (kinked_faces); body force beyond that of the kink adds int (b - b (kink))
+ * . h q dA over the ring. Springs are treated as their mean body force.
  *
- * Closed faces of the straight crack: the uniform stress that they carry in the mean of the ring is
- * subtracted, which the new pieces then bear; what they carry beyond it, all of it next to the kink where
- * they have opened, adds int t . h q ds over both faces. So wings of a closed crack are those of an open one
- * under the rest of the field. */
+ * Closed faces of the straight crack: their mean contact stress in the ring is subtracted and becomes a load
+ * on the pieces after the kink; deviations from the mean add int t . h q ds over both faces. So wing cracks
+ * of a closed crack are treated like those of an open crack under the remaining field. */
 #include "kinked_crack.h"
 #include "front.h"
 #include <math.h>
 #include <string.h>
 
-#define BESIDE  0.75                                   /* spacings from what has turned to the ring */
-#define FAR     12.0                                   /* spacings: outer radius at most */
-#define STRAIGHT 0.03                                  /* rad: turns below are none */
+#define BESIDE  0.75                                   /* spacings between the kinked part and the ring */
+#define FAR     12.0                                   /* largest outer radius, spacings */
+#define STRAIGHT 0.03                                  /* rad: smaller turns are ignored */
 
-/* Vertices behind a tip, tip first, and the turn that rings are laid around. */
+/* The path of a tip, tip first, and the kink around which the ring lies. */
 typedef struct {
-    size_t n, kink;                                    /* vertices; number of the kink */
-    double *x;                                         /* n x 2, m */
+    size_t n, kink;                                    /* number of vertices; index of the kink */
+    double *x;                                         /* vertices, n x 2, m */
     double e[2], ahead[2];  /* unit vectors: along the straight crack to the kink, along the last piece */
-    double extent, r1, r2;                             /* of what has turned; of the ring, m */
+    double extent, r1, r2;                             /* size of the kinked part; radii of the ring, m */
 } turned;
 
 /* ---- the kink ------------------------------------------------------------------------------------------ */
@@ -51,7 +50,7 @@ static double turn_between (const double *e, const double *f)
     return atan2 (e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]);
 }
 
-/* How far the crack runs straight behind vertex j, m. */
+/* Length over which the crack is straight behind vertex j, m. */
 static double straight_behind (const turned *t, size_t j)
 {
     double e[2], f[2];
@@ -64,8 +63,8 @@ static double straight_behind (const turned *t, size_t j)
     return hypot (t->x[2*end] - t->x[2*j], t->x[2*end + 1] - t->x[2*j + 1]);
 }
 
-/* Where a piece that presses lies on the straight crack that ends at x in the direction e: distance of its
- * middle from x, m; else NAN. */
+/* Distance from x of the middle of a closed piece that lies on the straight crack ending at x in direction e,
+ * m; NAN: it does not lie on it. */
 static double on_straight (const pg_face_piece *p, const double *x, const double *e, double h)
 {
     double v[2] = { p->x[0] - x[0], p->x[1] - x[1] }, behind = -(v[0] * e[0] + v[1] * e[1]);
@@ -73,8 +72,8 @@ static double on_straight (const pg_face_piece *p, const double *x, const double
     return along && behind > 0 && fabs (v[1] * e[0] - v[0] * e[1]) < 0.5 * h ? behind : NAN;
 }
 
-/* Outer radius of a ring around x, at most r2, m: pieces of closed faces that press end it, except for those
- * on the straight crack that ends at x in the direction e. */
+/* Outer radius of a ring around x, m, at most r2: limited by closed pieces not on the straight crack that
+ * ends at x in direction e. */
 static double room_of_faces (const double *x, const double *e, double h, const pg_tip_faces *touch, double r2)
 {
     for (size_t k = 0; touch && k < touch->npiece; k++) {
@@ -85,8 +84,8 @@ static double room_of_faces (const double *x, const double *e, double h, const p
     return r2;
 }
 
-/* The widest ring around a vertex behind which the crack runs straight, and before which it has turned; one
- * of full size around the first of them is not improved. 0: none. */
+/* Finds the vertex with the widest possible ring among those behind which the crack is straight and after
+ * which it has turned. *any 0: none. */
 static pg_status find_kink (turned *out, const pg_problem *p, const pg_state *state, size_t tip, double h,
                             size_t node, const pg_tip_faces *touch, int *any)
 {
@@ -118,7 +117,7 @@ done:
     return status;
 }
 
-/* A place of the scene in the frame of the kink, in units of r1. */
+/* A position x (m) as a complex number in the frame of the kink, in units of r1. */
 static double complex frame_of (const turned *t, const double *x)
 {
     double v[2] = { x[0] - t->x[2 * t->kink], x[1] - t->x[2 * t->kink + 1] };
@@ -126,8 +125,8 @@ static double complex frame_of (const turned *t, const double *x)
 }
 
 /* ---- the field in the ring ----------------------------------------------------------------------------- */
-/* Subtracts the stress S (11, 22, 12, uniform) and the stress that bears the body force b at the kink, with
- * their displacements. */
+/* Subtracts the uniform stress S (11, 22, 12) and the stress in equilibrium with the body force b, with their
+ * displacements. */
 static void subtract (front_places *q, int at, const tip_material *m, const kinked_faces *f)
 {
     double modulus = m->modulus, nu = (3 - m->kappa) / (1 + m->kappa), *u = q->field[at].u,
@@ -143,8 +142,8 @@ static void subtract (front_places *q, int at, const tip_material *m, const kink
     }
 }
 
-/* The mean displacement and rotation of the ring have no integral but for rounding and quadrature, which
- * would see them: off. spin: the rotation that the gradient lacks. */
+/* Subtracts the mean displacement and rotation of the ring, which contribute only rounding and quadrature
+ * errors. spin: rotation already removed from the gradient, rad. */
 static void take_rigid_motion_off (front_places *q, int at, double spin)
 {
     double sum[3] = { 0 }, area = 0, *u = q->field[at].u;
@@ -161,7 +160,7 @@ static void take_rigid_motion_off (front_places *q, int at, double spin)
     }
 }
 
-/* Body force at the kink: the mean over the ring. */
+/* Mean body force over the ring, N/m^3, taken as that at the kink. */
 static void mean_load (const front_places *q, int at, double *b)
 {
     double area = 0;
@@ -193,8 +192,8 @@ static void add_ring (kinked_moments *out, const front_places *ring, int at, con
     }
 }
 
-/* What the straight faces carry, sigma_12 and sigma_22 (Pa): of each field the mean over the ring, and by how
- * much they carry more at each place behind the kink. any 0: nothing presses. */
+/* Contact stresses sigma_12 and sigma_22 (Pa) of the straight faces: of each field the mean over the ring,
+ * and the deviation from it at each place behind the kink. any 0: no contact. */
 typedef struct { int any; double mean[TIP_FIELDS][2], more[TIP_FIELDS][KINKED_PLACES][2]; } straight_faces;
 
 static void look_at_faces (straight_faces *out, const turned *t, const pg_tip_faces *touch, double h,
@@ -226,7 +225,7 @@ static void look_at_faces (straight_faces *out, const turned *t, const pg_tip_fa
         }
 }
 
-/* Adds them to the moments of a field over the ring r1 .. r2. */
+/* Adds the deviations of contact stresses to the moments of a field over the ring from r1 to t->r2. */
 static void add_faces (kinked_moments *out, const straight_faces *faces, int at, const tip_material *m,
                        const turned *t, double r1)
 {
@@ -236,8 +235,8 @@ static void add_faces (kinked_moments *out, const straight_faces *faces, int at,
     }
 }
 
-/* Samples the ring and leaves in it fields with free straight faces and without body force at the kink, u in
- * its frame. */
+/* Evaluates the fields in the ring, with free straight faces, without body force at the kink, and u in the
+ * frame of the kink. */
 static pg_status sample_ring (front_places *q, kinked_faces *faces, const measuring *m,
                               const pg_tip_field *ring, const straight_faces *press)
 {
@@ -268,7 +267,7 @@ done:
 }
 
 /* ---- intensities --------------------------------------------------------------------------------------- */
-/* Weight functions of the polyline, with a trial facet at `theta` from its end where it has a length. */
+/* Computes the weight functions of the polyline, with a trial facet at angle theta added if facet > 0. */
 static pg_status weights_of (kinked_weights *out, const turned *t, double facet, double theta, int nfield,
                              const kinked_faces *faces, const straight_faces *press)
 {
@@ -291,7 +290,7 @@ done:
 
 static const double trial_angles[PG_TIP_TRIALS] = { -0.8, -0.4, 0, 0.4, 0.8 };
 
-/* K at the end of the trial facets. */
+/* Computes K at the end of each trial facet. */
 static pg_status measure_trials (pg_tip_field *out, const turned *t, const front_places *grid, int nfield,
                                  const tip_material *m, const kinked_faces *faces,
                                  const straight_faces *press, double facet)
@@ -320,7 +319,7 @@ done:
     return status;
 }
 
-/* K and J at the tip by the ring, J also by the outer half of it. */
+/* Computes K and J at the tip from the ring, and J_near from its outer half. */
 static pg_status measure_tip (pg_tip_field *out, const turned *t, const front_places *grid, int nfield,
                               const tip_material *m, const kinked_faces *faces, const straight_faces *press,
                               int *done)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The weight functions of a kinked crack (Bueckner 1970, Rice 1972): how the field of a crack changes when
- * its last piece grows, which is what the stress intensity factors at its end answer to.
+ * The weight functions of a kinked crack (Bueckner 1970, Rice 1972): the derivative of the field of a crack
+ * with respect to the length of its last piece, which determines the stress intensity factors at its end.
  *
  * The straight part is the negative axis 1 and has free faces. Each further piece is a line of dislocations
- * in its presence, of density B along it (the way of Lo 1978). Stresses and displacements by the potentials
- * of Muskhelishvili,
+ * in its presence, of density B along it (method of Lo 1978). Stresses and displacements by the potentials of
+ * Muskhelishvili,
  *
  *   sigma_11 + sigma_22 = 4 Re Phi,   sigma_22 - i sigma_12 = Phi (z) + Omega (z') + (z - z') conj Phi' (z),
  *   2 mu (u_1 + i u_2) = kappa phi (z) - omega (z') - (z - z') conj Phi (z),   z' = conj z, phi' = Phi, ...
@@ -19,9 +19,9 @@
  * The densities make the faces of the pieces free of traction, sigma_nn - i sigma_nt = 0, under the singular
  * field of the straight crack, Phi = Omega = (K_I - i K_II) / (2 sqrt (2 pi z)): singular integral equations,
  * which Gauss-Chebyshev quadrature turns into a dense linear system (Erdogan and Gupta 1972). At a corner the
- * density has a power of its own, which no polynomial follows; the places of quadrature are therefore graded
- * towards corners, s = ((1 + t) / 2)^GRADE along the first half of a piece, after which the density times the
- * Jacobian is as smooth as the quadrature asks for. */
+ * density has another singular power, which polynomials do not represent; quadrature points are therefore
+ * graded towards corners, s = ((1 + t) / 2)^GRADE along the first half of a piece, which makes the density
+ * times the Jacobian smooth enough for the quadrature. */
 #include "kinked_crack.h"
 #include "perigal/linalg.h"
 #include <math.h>
@@ -29,12 +29,12 @@
 
 enum { NODES = 16, GRADE = 3, LOADS = 2 + KINKED_FIELDS };
 static const double pi = 3.14159265358979323846;
-static const double step = 0.01;                       /* of the last piece, for the change with its length */
+static const double step = 0.01;                       /* relative change of the last piece's length */
 
-/* One straight piece: begin, vector to its end; last: it ends in the tip. */
+/* One straight piece: start, vector to its end; last: 1: it ends at the tip. */
 typedef struct { double complex from, way; int last; } piece;
 
-/* Shares of the way of a piece at t in (-1, 1), and its derivative: graded towards corners. */
+/* Position along a piece (0 to 1) at t in (-1, 1), graded towards corners, and its derivative. */
 static double graded (const piece *p, double t, double *slope)
 {
     double v = 0.5 * (1 + t), a = pow (v, GRADE), b = pow (1 - v, GRADE);
@@ -46,14 +46,14 @@ static double graded (const piece *p, double t, double *slope)
     return a / (a + b);
 }
 
-/* 1 / z, without the care for overflow that a division takes. */
+/* 1 / z, without the overflow protection of complex division. */
 static double complex inverse_of (double complex z)
 {
     return conj (z) * (1 / (creal (z) * creal (z) + cimag (z) * cimag (z)));
 }
 
 /* ---- potentials ---------------------------------------------------------------------------------------- */
-/* Where a density sits on a piece, or where the traction is to vanish: z, sqrt z. */
+/* A quadrature or collocation point on a piece: z, sqrt z. */
 typedef struct { double complex z, root; } place;
 
 static place place_on (const piece *p, double t)
@@ -72,8 +72,8 @@ static double complex traction (double complex z, double complex turn, double co
     return mean + turn * (across - mean);
 }
 
-/* Traction across a piece by a dislocation at s with B = 1 (T[0]) and with B = i (T[1]). At conj z the two
- * fractions are conjugate to each other's at z. */
+/* Traction across a piece by a dislocation at s with B = 1 (T[0]) and with B = i (T[1]). The two fractions at
+ * conj z are conjugate to each other's at z. */
 static void of_dislocation (const place *at, double complex turn, const place *s, double complex T[2])
 {
     double complex z = at->z, rs = s->root, rc = conj (rs), c = conj (s->z), d = inverse_of (z - s->z),
@@ -96,7 +96,8 @@ static void of_dislocation (const place *at, double complex turn, const place *s
     }
 }
 
-/* Traction across a piece by load `which`: singular field of the straight crack, or what acts on pieces. */
+/* Traction across a piece by load `which`: 0, 1: singular field of the straight crack; else loads on the
+ * pieces. */
 static double complex of_load (const place *at, double complex turn, size_t which, const kinked_faces *load)
 {
     double complex z = at->z;
@@ -113,15 +114,15 @@ static double complex of_load (const place *at, double complex turn, size_t whic
 /* ---- the system ---------------------------------------------------------------------------------------- */
 static double node_at (int k) { return cos ((2 * k - 1) * pi / (2 * NODES)); }          /* k = 1 .. NODES */
 
-/* What node k counts in the value of the density at the end t = 1 (or, from the other side, -1). */
+/* Coefficient of node k in the extrapolated density at the end t = 1 (for t = -1 of node NODES + 1 - k). */
 static double end_share (int k)
 {
     double half = (2 * k - 1) * pi / (4 * NODES);
     return sin ((2 * NODES - 1) * half) / sin (half) / NODES;
 }
 
-/* Rows of piece p: no traction at NODES - 1 places, and no density where the piece begins. A: 2 N x 2 N by
- * columns; unknowns of node j: real and imaginary part. node: all of them, piece by piece. */
+/* Equations of piece p: zero traction at NODES - 1 points, and zero density at its start. A: 2 N x 2 N by
+ * columns; unknowns of node j: real and imaginary part. node: quadrature points of all pieces. */
 static void fill_rows (const piece *all, const place *node, size_t n, size_t p, size_t nload,
                        const kinked_faces *load, double *A, double *b)
 {
@@ -149,8 +150,8 @@ static void fill_rows (const piece *all, const place *node, size_t n, size_t p, 
             A[(2 * (p * NODES + (size_t) k - 1) + part) * rows + row + part] = end_share (NODES + 1 - k);
 }
 
-/* Adds `times` the densities d of a load to the potentials outside of the polyline: the coefficients of E and
- * O in powers of 1 / z. */
+/* Adds the potentials outside of the polyline due to densities d, times `times`: coefficients of E and O in
+ * powers of 1 / z. */
 static void add_series (const place *node, size_t n, const double *d, double times, double complex *even,
                         double complex *odd)
 {
@@ -167,8 +168,8 @@ static void add_series (const place *node, size_t n, const double *d, double tim
     }
 }
 
-/* Adds `times` mu / (kappa + 1) times the jump of u across the straight crack by densities d: int O dz from
- * infinity along its left face, in closed form by the root of z. */
+/* Adds `times` mu / (kappa + 1) times the jump of u across the straight crack due to densities d: int O dz
+ * from infinity along its left face, in closed form by the root of z. */
 static void add_jump (const place *node, size_t n, const double *d, double times, double reach,
                       double complex *jump)
 {
@@ -185,8 +186,8 @@ static void add_jump (const place *node, size_t n, const double *d, double times
     }
 }
 
-/* Solves for all loads with the last piece `longer` times as long, and adds the end's K, half of it, and the
- * potentials over the change of length (that of both signs). */
+/* Solves for all loads with the last piece `longer` times as long, and adds half of K at its end, and the
+ * potentials for a central difference with respect to the length. */
 static pg_status add_change (kinked_weights *out, piece *all, size_t n, double longer, size_t nload,
                              const kinked_faces *load)
 {
@@ -247,10 +248,10 @@ done:
 }
 
 /* ---- reciprocity --------------------------------------------------------------------------------------- */
-/* Terms that count at a distance from the kink. */
+/* Number of terms of the series needed at distance r from the kink. */
 static int terms_at (double r, double extent)
 {
-    static const double least = -18;                   /* ln of what is left out */
+    static const double least = -18;                   /* ln of the relative truncation error */
     double n = extent < r ? least / log (extent / r) : KINKED_TERMS;
     return n < KINKED_TERMS ? (int) n + 1 : KINKED_TERMS;
 }
@@ -278,7 +279,8 @@ void kinked_moments_add (kinked_moments *out, const kinked_place *at, double mu,
     }
 }
 
-/* Both faces: the traction of the left one, -(sigma_12, sigma_22), with the jump of the weight function. */
+/* Contribution of both faces: the traction of the left one, -(sigma_12, sigma_22), with the jump of the
+ * weight function. */
 void kinked_moments_face (kinked_moments *m, int i, const double stress[2], double q, double mu, double kappa,
                           double reach)
 {
@@ -286,8 +288,8 @@ void kinked_moments_face (kinked_moments *m, int i, const double stress[2], doub
     m->face[i] += (kappa + 1) / mu * conj (t);
 }
 
-/* Of Rice: the change of load l's field with the length is 2 / E' (k_I h_I + k_II h_II) of the weight
- * functions h, whose integrals are K_I and K_II. */
+/* By Rice (1972) the derivative of load l's field with respect to the length is 2 / E' (k_I h_I + k_II h_II)
+ * of the weight functions h, whose integrals are K_I and K_II. */
 int kinked_intensities (const kinked_weights *w, const kinked_moments *m, double modulus, size_t load,
                         double K[2])
 {

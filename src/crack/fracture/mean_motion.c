@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A displacement field less the motion of a rigid body that the nodes around a tip or front make in the mean.
- * A rigid motion changes no stress and has no part in J and K; in sums over places its turn is multiplied by
- * what stresses miss of equilibrium, and a place whose shape functions do not reproduce linear fields strains
- * under it. Least squares over the nodes: linear in the field, and exact for motions of a rigid body. */
+ * A displacement field without the mean rigid motion of the nodes around a tip or front. A rigid motion does
+ * not change stress, J or K; but numerically its rotation is multiplied by equilibrium errors of the stress,
+ * and shape functions that do not reproduce linear fields strain under it. Determined by least squares over
+ * the nodes: linear in the field, and exact for rigid motions. */
 #include "mean_motion.h"
 #include "held_points.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <string.h>
 
-/* The spin of which the moment of momentum of the nodes is L, with the inertia J (3 x 3, of unit masses). In
- * the plane there is the third component alone. Nodes in a line have no spin about it. */
+/* Rotation (rad) with the moment L of displacements of the nodes, spin = J^-1 L, J the inertia (3 x 3, unit
+ * masses). In 2D only the third component. Nodes on a line: no rotation about it. */
 static void spin_of (int dim, const double *J, const double *L, double *spin)
 {
     double lambda[3], V[9];
@@ -32,7 +32,8 @@ static int inside (const double *x, size_t dim, const double *low, const double 
     return 1;
 }
 
-/* Mean place and displacement of the nodes in the box, and their spin; returns how many nodes there are. */
+/* Finds mean position and displacement of the nodes in the box, and their rotation; returns the number of
+ * nodes. */
 static size_t find (mean_motion *m, const pg_problem *p, const pg_state *state, const double *d,
                     const double *low, const double *high)
 {
@@ -69,13 +70,13 @@ void mean_motion_at (const mean_motion *m, const double *x, int dim, double *u)
     for (int k = 0; k < dim; k++) u[k] = m->shift[k] + turned[k];
 }
 
-/* Rotations of points are unknowns times the spacing. */
+/* Subtracts the mean rigid motion from a field; rotational unknowns are rotations times the spacing. */
 pg_status mean_motion_take (mean_motion *out, const pg_problem *p, const pg_state *state, const double *d,
                             size_t nplace, const double *place, double reach)
 {
     pg_status status = PG_OK;
     size_t n = p->cloud.n, dim = (size_t) p->dim, stride = state->ndof / n;
-    /* A ring that ends at a side of the body has nodes on the border of the box: they are in it. */
+    /* nodes on the border of the box, as for a ring that ends at the surface, are included */
     double low[3], high[3], same = pg_cloud_same (&p->cloud);
     memset (out, 0, sizeof *out);
     for (size_t k = 0; k < dim; k++) {

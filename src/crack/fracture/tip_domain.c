@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How large a ring around a tip may be. It must hold nothing but one material and the two faces of its
- * own crack: no surface of the body, no other crack or tip (pg_tip_nearest), no interface, no support or
- * load on points but springs. Body forces may act in it, if they do everywhere.
+ * Size of the integration rings around a tip. A ring may contain only one material and the two faces of its
+ * own crack: no surface of the body, no other crack or tip (pg_tip_nearest), no interface, no support or load
+ * on points except springs. Body forces are allowed if they act everywhere in it.
  *
- * Radii, in local spacings h: both rings begin at 1, where the shape functions see the tip no more. The
- * near one, which gives the ratio of K_II to K_I and with it the direction, ends at 3: behind a kink the
- * field of a larger one is not yet that of the new facet. The wide one, which gives the magnitude, ends at 8,
+ * Radii, in local spacings h: both rings begin at 1, where shape functions are no longer affected by the tip.
+ * The near one, which gives the ratio of K_II to K_I and with it the direction, ends at 3: behind a kink the
+ * field farther away is not yet that of the new facet. The wide one, which gives the magnitude, ends at 8,
  * but not far beyond the last turn of the crack, for J is independent of the ring only where the crack is
- * straight. Measured on cracks that grew (doc/accuracy.md); below 1.5 a ring knows nothing. */
+ * straight. Measured on cracks that grew (doc/accuracy.md); rings below 1.5 are useless. */
 #include "front.h"
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 #define NEAR  3.0
 #define WIDE  8.0
 #define CHORD 1.5
-#define TURN  0.2                                      /* rad: a turn that counts */
+#define TURN  0.2                                      /* rad: smaller turns of the crack are ignored */
 
 static double distance (const pg_problem *p, size_t node, const double *x)
 {
@@ -35,7 +35,7 @@ size_t tip_node_at (const pg_problem *p, const double *x)
     return nearest;
 }
 
-/* Is a node in a set? Its points are ascending. */
+/* Returns 1: the node is in the set (bisection in its ascending points). */
 static int member (const pg_set *set, size_t node)
 {
     size_t low = 0, high = set->npoint;
@@ -52,7 +52,7 @@ static void end_room (pg_tip_field *out, double room, int limit, int load)
     if (room < out->room) out->room = room, out->limit = limit, out->load = load;
 }
 
-/* Up to the nearest node on which a support or a force acts whose force is in no integral. */
+/* Limits the room to the nearest node with a support or point force. */
 static void end_at_loads (pg_tip_field *out, const pg_problem *p)
 {
     for (size_t l = 0; l < p->boundary.nload; l++) {
@@ -71,8 +71,8 @@ int tip_same_material (const pg_problem *p, size_t i, size_t k)
                       && a->density == b->density);
 }
 
-/* Does another material than at `here` fill node i, or another body force act on it? PG_ROOM_FREE:
- * neither. */
+/* Returns PG_ROOM_MATERIAL or PG_ROOM_FORCE if node i has another material or other body forces than `here`;
+ * else PG_ROOM_FREE. */
 static int differs (const pg_problem *p, size_t i, size_t here)
 {
     if (!tip_same_material (p, i, here)) return PG_ROOM_MATERIAL;
@@ -83,7 +83,7 @@ static int differs (const pg_problem *p, size_t i, size_t here)
     return PG_ROOM_FREE;
 }
 
-/* Is there but one material, and are all body forces everywhere? */
+/* Returns 1: there is only one material, and all body forces act everywhere. */
 static int is_uniform (const pg_problem *p)
 {
     for (size_t l = 0; l < p->boundary.nload; l++)
@@ -92,7 +92,7 @@ static int is_uniform (const pg_problem *p)
     return p->nmaterial == 1;
 }
 
-/* Up to the interface, which lies in the middle between nodes of the two sides. */
+/* Limits the room to the nearest interface, which lies midway between nodes of the two sides. */
 static void end_at_interfaces (pg_tip_field *out, const pg_problem *p, size_t here)
 {
     if (is_uniform (p)) return;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * J, K_I, K_II and T of one tip: its rings, the fields there, the integrals. */
+ * Computes J, K_I, K_II and T of one tip by integrals over rings. */
 #include "front.h"
 #include <math.h>
 #include <string.h>
 
-/* Rings of an open tip hold no closed face. */
+/* Limits the rings of an open tip to the nearest closed face. */
 static void limit_rings (pg_tip_field *out, const pg_problem *p, const pg_tip_faces *faces)
 {
     if (faces->nearest < out->room) out->room = faces->nearest, out->limit = PG_ROOM_FACES, out->load = -1;
@@ -21,8 +21,9 @@ cross_section tip_section (const pg_problem *p, const double *x, const double *e
                              .material = material_at (p, node) };
 }
 
-/* The integrals of both rings into the numbers of the tip. The direction comes from the near one, but for a
- * tip that has not grown: behind it there is no new kink, and the wide ring hears less of the lattice. */
+/* Converts the integrals of both rings to J, K and T. K, which determines the direction, is taken from the
+ * near ring, but for a tip that has not grown (no kink behind it) from the wide one, which depends less on
+ * the lattice. */
 static void take_sums (pg_tip_field *out, const front_sums *sums, const measuring *m, int grown)
 {
     memcpy (out->J_near, sums->J[0], sizeof out->J_near), memcpy (out->J, sums->J[1], sizeof out->J);
@@ -60,8 +61,8 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
     int kinked = 0, forced = has_body_force (p, node);
     if (!s.closed && !m.moving) PG_TRY (kinked_tip_measure (out, &m, tip, facet, touch, &kinked));
     if (kinked || isnan (out->near)) goto done;
-    /* What moves needs no places within the rings: where a field goes along with its tip, v = - c u,1, rho a
-     * u,1 and rho v v,1 are the same, and what is sampled there is the lattice. */
+    /* Inertia terms are not integrated within r1: in a field that moves with its tip, v = - c u,1, rho a u,1
+     * and rho v v,1 cancel, and samples there would only be noise of the lattice. */
     PG_TRY (tip_rings_create (&rings, p, out, forced));
     PG_TRY (tip_faces_create (&faces, p, out, pg_state_cracks (p, state)));
     PG_TRY (places_fields (&rings, &m, forced, m.moving));

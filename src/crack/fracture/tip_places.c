@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The places at which the integrals around a tip are summed. The shape functions are smooth but not
- * polynomial, with a length of their own of about h: Gauss points by four on pieces of less than h along the
- * radius, and on equal arcs around. None lies on the crack, at the angle +-pi. The near ring and what the
- * wide one adds are divided apart, so that both are sums over places that were sampled once.
+ * Integration points of the integrals around a tip. The shape functions are smooth but not polynomial, with a
+ * length scale of about h: four Gauss points each on pieces of less than h along the radius, and on equal
+ * arcs around. None lies on the crack, at the angle +-pi. The near ring and the rest of the wide one have
+ * separate points, so that both integrals use fields evaluated once.
  *
  * Faces of a crack that turns inside the rings. Where the faces run along e the line integral of Rice is the
- * same around every path; on faces that do not, J of the tip has a further part. With P_j = sigma_ij u_i,1 -
- * W delta_1j and div P = 0 the integral over the ring is J of the tip less the flux of P through the faces,
- * and since free faces have sigma n = 0,
+ * same around every path; on faces that do not, J of the tip has an additional part. With P_j = sigma_ij
+ * u_i,1 - W delta_1j and div P = 0 the integral over the ring is J of the tip less the flux of P through the
+ * faces, and since free faces have sigma n = 0,
  *
  *   J += int W n_1 q ds over both faces of all pieces, n outwards: q ((W n_1) right + (W n_1) left).
  *
- * W is the energy density on the face, seen from its own side. It matters where the body is compressed along
- * the crack: behind a kink such as that of a wing the part is as large as J itself. Within a quarter of a
- * spacing of the tip the two faces are not apart yet and nothing is added. */
+ * W is the energy density on each face. It matters under compression along the crack: behind the kink of a
+ * wing crack this part is as large as J itself. Within a quarter of a spacing of the tip the discrete faces
+ * are not separated, and nothing is added. */
 #include "front.h"
 #include <math.h>
 #include <string.h>
 
 enum { GAUSS = 4, ARCS_NEAR = 12, ARCS_WIDE = 16 };
-static const double ring_piece = 0.75;                 /* of the radius, in spacings, at most */
-static const double piece = 0.5, aside = 0.02, closed = 0.25;      /* of faces, in spacings */
-static const double straight = 0.05;                   /* |n_1| of faces that count as running along e */
+static const double ring_piece = 0.75;                 /* largest radial piece, in spacings */
+/* spacings: largest piece of a face; offset of points from it; excluded distance from the tip */
+static const double piece = 0.5, aside = 0.02, closed = 0.25;
+static const double straight = 0.05;                   /* |n_1| below which faces count as parallel to e */
 static const double pi = 3.14159265358979323846;
 
 /* ---- rings --------------------------------------------------------------------------------------------- */
-/* Radial pieces of a ring. */
+/* Number of radial pieces of a ring. */
 static size_t pieces (const pg_problem *p, double from, double to, double h)
 {
     return to > from + pg_cloud_same (&p->cloud) ? pg_cloud_pieces (&p->cloud, to - from, ring_piece * h) : 0;
@@ -36,7 +37,7 @@ static size_t places (const pg_problem *p, double from, double to, double h, int
     return pieces (p, from, to, h) * GAUSS * (size_t) arcs * GAUSS;
 }
 
-/* Appends the places of the ring from .. to. */
+/* Appends the integration points of the ring from `from` to `to` (m). */
 static void add_ring (front_places *q, const pg_problem *p, const pg_tip_field *tip, double from, double to,
                       int arcs)
 {
@@ -71,8 +72,8 @@ done:
 }
 
 /* ---- faces --------------------------------------------------------------------------------------------- */
-/* The left and the right face at a place of a piece whose left normal is n_1 along e: the outward normals are
- * the opposite of it and itself. `length`: what the place stands for, m. */
+/* Appends points on the left and right face at `at`; outward normals are minus and plus the left normal,
+ * whose component along e is n_1. length: length represented, m. */
 static void add_place (front_places *q, const pg_tip_field *tip, const double *at, const double *normal,
                        double n_1, double length)
 {
@@ -84,14 +85,14 @@ static void add_place (front_places *q, const pg_tip_field *tip, const double *a
     }
 }
 
-/* Parts of the segment a b that are looked at, each with GAUSS places on both faces. */
+/* Number of parts of a segment of this length (m), each with GAUSS points on both faces. */
 static size_t parts_of (const pg_problem *p, const pg_tip_field *tip, double length)
 {
     return pg_cloud_pieces (&p->cloud, length, piece * tip->h);
 }
 
-/* Does the piece run within the wide ring, and not along e? Its length and how its left normal lies along
- * e. */
+/* Returns 1: the piece lies within the wide ring and is not parallel to e; *length, m; *n_1: its left normal
+ * . e. */
 static int turns (const pg_tip_field *tip, const pg_crack *c, double *length, double *n_1)
 {
     const double *a = c->vertex, *b = a + 2;
@@ -105,7 +106,7 @@ static int turns (const pg_tip_field *tip, const pg_crack *c, double *length, do
            && hypot (a[0] + s * t[0] - tip->x[0], a[1] + s * t[1] - tip->x[1]) < tip->wide;
 }
 
-/* A piece of a path, by Gauss points on its parts; only where the faces are apart and within the ring. */
+/* Appends Gauss points on the parts of a piece, where the faces are separated and within the ring. */
 static void add_piece (front_places *q, const pg_problem *p, const pg_tip_field *tip, const pg_crack *c,
                        double length, double n_1)
 {

@@ -18,7 +18,7 @@
  *
  * whose gradient in polar components is c / r times (- cos, - sin; sin, nu' cos).
  *
- * In space those of plane strain, with the stress nu (s11 + s22) along the front, and mode III,
+ * In 3D the fields of plane strain, with the stress nu (s11 + s22) along the front, and mode III,
  *
  *   u_3 = (2 / mu) (r / 2 pi)^(1/2) sin (theta / 2),
  *   s_13, s_23 = (-sin, cos) (theta / 2) / (2 pi r)^(1/2). */
@@ -33,7 +33,7 @@ double pg_tip_kappa (pg_mode mode, double nu)
     return mode == PG_PLANE_STRAIN ? 3 - 4 * nu : (3 - nu) / (1 + nu);
 }
 
-/* The angular part f (2) of a mode and its derivative by theta (2). */
+/* Angular part f (2) of a mode and its derivative with respect to theta (2). */
 static void angular (int mode, double kappa, double theta, double *f, double *df)
 {
     double s = sin (theta / 2), c = cos (theta / 2);
@@ -48,7 +48,7 @@ static void angular (int mode, double kappa, double theta, double *f, double *df
     }
 }
 
-/* Modes I and II. */
+/* Singular fields of modes I and II. */
 static void singular (int mode, double mu, double kappa, double r, double theta, double *u, double *H,
                       double *stress)
 {
@@ -72,7 +72,7 @@ static void singular (int mode, double mu, double kappa, double r, double theta,
     }
 }
 
-/* The force on the tip; polar components turned into the frame. */
+/* Field of the force on the tip; polar components are rotated into the frame. */
 static void force_on_tip (double mu, double kappa, double r, double theta, double *u, double *H,
                           double *stress)
 {
