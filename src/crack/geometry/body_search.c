@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the body is, and how fine its points are there: for tips of cracks, which must know what lies ahead
- * of them. A body of shapes answers itself, a mesh by its elements, points of a file by the nearest of
- * them. */
+ * Whether a position lies in the body, local spacing, and distances to the surface, for tips of cracks: by
+ * the shapes of the body, the elements of a mesh, or the nearest points of a file. */
 #include "perigal/crack.h"
 #include <math.h>
 
 struct pg_body_search {
-    pg_mesh_locator *locator;                          /* of a body that is a mesh */
-    pg_nearest *near;  /* among the points, where spacings differ or nothing else is known */
+    pg_mesh_locator *locator;                          /* of a mesh, or NULL */
+    pg_nearest *near;  /* of points, if spacings differ or there are only points */
 };
 
 pg_status pg_body_search_create (struct pg_body_search **out, const pg_cloud *cloud, const pg_body *body,
@@ -34,7 +33,7 @@ void pg_body_search_free (struct pg_body_search **search)
     *search = NULL;
 }
 
-/* The nearest point, -1: none was asked for when the search was made. */
+/* Index of the nearest point; -1: the search has no points. */
 static long nearest_to (const pg_ground *p, const double *x)
 {
     return p->search && p->search->near ? pg_nearest_find (p->search->near, x, NULL, NULL) : -1;
@@ -46,8 +45,8 @@ double pg_ground_spacing_at (const pg_ground *p, const double *x)
     return i >= 0 ? p->cloud->size[i] : p->cloud->h;
 }
 
-/* Points of a file have no surface: a place beyond it has none nearer than those of a lattice lie at
- * most. */
+/* Points of a file have no surface: x is in the body if a point is as near as in a lattice, at most half its
+ * cell's diagonal. */
 int pg_ground_has_body (const pg_ground *p, const double *x)
 {
     double xi[3], d = 0;
@@ -60,7 +59,7 @@ int pg_ground_has_body (const pg_ground *p, const double *x)
     return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * pg_ground_spacing_at (p, x);
 }
 
-/* Steps of a way in a spacing; halvings of the last one: 2^-44 of it is rounding. */
+/* Steps of a ray per spacing; bisections of the last step, down to rounding. */
 enum { STEPS = 8, HALVINGS = 44 };
 
 static int body_at (const pg_ground *p, const double *x, const double *e, double r)
@@ -70,7 +69,7 @@ static int body_at (const pg_ground *p, const double *x, const double *e, double
     return pg_ground_has_body (p, place);
 }
 
-/* Between a place with body and one without it. */
+/* Finds the surface by bisection between distance `near` (inside the body) and `far` (outside), m. */
 static double halve (const pg_ground *p, const double *x, const double *e, double near, double far)
 {
     for (int k = 0; k < HALVINGS; k++) {
@@ -81,11 +80,12 @@ static double halve (const pg_ground *p, const double *x, const double *e, doubl
     return near;
 }
 
-/* Of shapes all that they leave empty is known, slots that are narrower than any step too. 0: not known. */
+/* Distance *way (m) to the surface of shapes, exact also for slots narrower than a step; returns 0: not
+ * known. */
 static int way_in_shapes (const pg_ground *p, const double *x, const double *e, double limit, double first,
                           double *way)
 {
-    double end[3] = { 0 }, gap[2], after = 0;            /* in parts of the limit */
+    double end[3] = { 0 }, gap[2], after = 0;            /* fractions of `limit` */
     int found;
     if (!p->body->n || !p->between) return 0;
     for (int k = 0; k < p->dim; k++) end[k] = x[k] + limit * e[k];
@@ -99,8 +99,8 @@ static int way_in_shapes (const pg_ground *p, const double *x, const double *e, 
     return !found;
 }
 
-/* A place within rounding of the surface has some body to one side only, so the first step counts as a
- * whole. */
+/* Steps along the ray, then bisection. x may lie on the surface to rounding, so the first step is tested at
+ * its end only. */
 double pg_ground_way_out (const pg_ground *p, const double *x, const double *e, double limit)
 {
     double step = pg_ground_spacing_at (p, x) / STEPS, near = 0, far, way;
@@ -112,8 +112,8 @@ double pg_ground_way_out (const pg_ground *p, const double *x, const double *e, 
     return limit;
 }
 
-/* Cells that a lattice rim may lie outside the surface, spacings. In space what lies on the surface, to
- * rounding, is body. */
+/* Largest distance of lattice points outside the surface, spacings. In 3D positions on the surface, to
+ * rounding, count as body. */
 #define BEYOND_SURFACE 1.0
 double pg_ground_beyond (const pg_ground *p, const double *x, const double *e)
 {
@@ -129,7 +129,7 @@ double pg_ground_beyond (const pg_ground *p, const double *x, const double *e)
     return free ? BEYOND_SURFACE * h : 0;
 }
 
-/* Strips across, weighed by their length. */
+/* Samples the triangle at PLACES x PLACES points, weighted by the length of the strip. */
 double pg_ground_area_inside (const pg_ground *p, const double *o, const double *u, const double *v,
                                double area)
 {

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks that grow in the plane, as part of a state: straight pieces that follow each other from the cracks
- * of the scene, or from where a crack began, up to the tips.
+ * Growing 2D cracks of a state: straight pieces that continue the cracks of the scene, or start with a new
+ * crack, up to the tips.
  *
- * A path cuts the bonds that cross it, but only up to a distance o behind an open tip, along the path: shape
- * functions of points beside a tip that lost some of their neighbours follow the crack further than the bonds
- * were cut (tips.c has o). When the tip moves on, what it has left behind is cut as well. So the part of a
- * crack of the scene that cut nothing yet must become sided when it grows; it is split off as a piece of its
- * own, and both pieces together are what the crack was. */
+ * A path cuts the bonds that cross it, but only up to a distance o behind an open tip, along the path, as
+ * shape functions near a tip let the crack open beyond the cut bonds (pre_crack_tips.c gives o). When the tip
+ * advances, the part behind is cut as well. Therefore the part of a crack of the scene that has cut nothing
+ * yet must become sided when it grows: it is split off as a separate piece. */
 #include "perigal/crack.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Of a tip, in parts of the length of its path, at most. */
+/* Largest offset of a tip, as a fraction of the length of its path. */
 #define OFFSET_OF_PATH 0.25
 
 /* ---- walking along a path ------------------------------------------------------------------------------ */
-/* A piece, and the end at which it is entered; the walk leaves at the other. */
+/* Position of a walk along a path: a piece, the end at which it is entered, its length (m); it is left at the
+ * other end. */
 typedef struct { const pg_crack_paths *w; size_t piece; int end; double length; } walk;
 
 static const double *vertex_of (const pg_crack_paths *w, size_t piece, int end)
@@ -35,12 +35,12 @@ static walk walk_from (const pg_crack_paths *w, const pg_tip *t)
     return (walk) { w, t->segment, t->end, length_of (w, t->segment) };
 }
 
-/* On to piece j if it begins where the last one ends. */
+/* Moves on to piece j if it begins where the present one ends; else returns 0. */
 static int walk_onto (walk *at, size_t j)
 {
     const double *x = vertex_of (at->w, at->piece, 1 - at->end);
     for (int end = 0; end < 2; end++) {
-        /* all pieces of a path run in one direction, but for cracks of the scene */
+        /* all pieces of a path have the same direction, except cracks of the scene */
         int e = end ? 1 - at->end : at->end;
         if (j == at->piece || !pg_crack_paths_same (at->w, vertex_of (at->w, j, e), x)) continue;
         *at = (walk) { at->w, j, e, length_of (at->w, j) };
@@ -49,8 +49,8 @@ static int walk_onto (walk *at, size_t j)
     return 0;
 }
 
-/* On to what the piece continues, else to any that hangs on its end: a path that grows at both ends is
- * followed to the other one. 0: the path ends. */
+/* Moves on to the parent of the piece, else to any piece attached to its end (a path that grows at both ends
+ * is followed to the other end). Returns 0: the path ends. */
 static int walk_on (walk *at)
 {
     const pg_crack_paths *w = at->w;
@@ -78,7 +78,7 @@ void pg_tip_chord (const pg_crack_paths *w, size_t tip, double back, double *fro
     for (int k = 0; k < 2; k++) direction[k] = d[k] / size;
 }
 
-/* Unit vector along a piece, against the walk: towards the tip. */
+/* Unit vector along the piece, opposite to the walk: towards the tip. */
 static void heading (const walk *at, double *e)
 {
     const double *a = vertex_of (at->w, at->piece, at->end), *b = vertex_of (at->w, at->piece, 1 - at->end);
@@ -100,7 +100,7 @@ double pg_tip_straight (const pg_crack_paths *w, size_t tip, double angle)
 
 pg_status pg_tip_vertices (const pg_crack_paths *w, size_t tip, size_t *n, double **x)
 {
-    static const double turn = 1e-6;                   /* rad: not a turn */
+    static const double turn = 1e-6;                   /* rad: smaller turns are ignored */
     pg_status status = PG_OK;
     walk at = walk_from (w, &w->tip[tip]);
     double e[2], f[2];
@@ -138,7 +138,7 @@ double pg_tip_behind (const pg_crack_paths *w, size_t tip, double limit)
 }
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */
-/* Appends a sided piece; there is room. */
+/* Appends a sided piece (memory must be reserved); returns its index. */
 static size_t append (pg_crack_paths *w, const pg_ground *p, const double *from, const double *to,
                       size_t parent, long owner)
 {
@@ -155,7 +155,7 @@ static size_t append (pg_crack_paths *w, const pg_ground *p, const double *from,
     return k;
 }
 
-/* A crack of the scene begins to grow: what it has not cut becomes a piece of its own. */
+/* When a crack of the scene begins to grow: splits off the part that has cut no bonds as a sided piece. */
 static void split_first (pg_crack_paths *w, const pg_ground *p, pg_tip *t)
 {
     pg_crack *c = &w->cracks.crack[t->segment];
@@ -169,8 +169,8 @@ static void split_first (pg_crack_paths *w, const pg_ground *p, pg_tip *t)
     t->segment = k;
 }
 
-/* Of a path at its tip, m: scaled with the local spacing, and no more than a share of the path. slides: its
- * faces touch and slide. */
+/* Offset of a tip, m: proportional to the local spacing, at most OFFSET_OF_PATH of the path's length. slides:
+ * 1: the faces are in contact and slide. */
 static double offset_at (const pg_crack_paths *w, const pg_ground *p, size_t tip, int slides)
 {
     double o = (slides ? p->closed_tip_offset : p->tip_offset)
@@ -178,8 +178,8 @@ static double offset_at (const pg_crack_paths *w, const pg_ground *p, size_t tip
     return fmin (o, OFFSET_OF_PATH * pg_tip_behind (w, tip, o / OFFSET_OF_PATH));
 }
 
-/* Where the path of a tip cuts no bonds: up to `offset` behind it; negative: so far beyond it. Pieces up to
- * `far` behind the tip are brought in line and marked. */
+/* Sets the retreats of pieces so that the path cuts no bonds within `offset` (m) behind its tip (negative:
+ * cuts beyond it). Pieces up to `far` (m) behind the tip are updated and marked. */
 static void set_retreats (pg_crack_paths *w, const pg_tip *t, double offset, double far,
                           unsigned char *changed)
 {
@@ -196,7 +196,7 @@ static void set_retreats (pg_crack_paths *w, const pg_tip *t, double offset, dou
 }
 
 /* ---- growing ------------------------------------------------------------------------------------------- */
-/* Moves the tip to the end of a facet of its own. */
+/* Moves the tip to `to` by appending a facet. */
 static void move (pg_crack_paths *w, const pg_ground *p, pg_tip *t, const double *to, double length)
 {
     t->segment = t->end ? append (w, p, t->x, to, t->segment, t->id)
@@ -205,7 +205,8 @@ static void move (pg_crack_paths *w, const pg_ground *p, pg_tip *t, const double
     t->grown += length, w->length += length;
 }
 
-/* The path of tip `tip` cuts up to its end, and a little further so that rounding leaves nothing. */
+/* Closes a tip: its path then cuts to its end, and slightly beyond, so that no bonds are missed by
+ * rounding. */
 static void close_tip (pg_crack_paths *w, const pg_ground *p, size_t tip, unsigned char *changed)
 {
     pg_tip *t = &w->tip[tip];
@@ -216,7 +217,7 @@ static void close_tip (pg_crack_paths *w, const pg_ground *p, size_t tip, unsign
     set_retreats (w, t, -fmax (w->nothing, pg_ground_beyond (p, t->x, e)), before + w->nothing, changed);
 }
 
-/* Tips of other paths that the place belongs to end with it. */
+/* Closes tips of other paths whose uncut part contains the end of this tip. */
 static void close_met (pg_crack_paths *w, const pg_ground *p, size_t tip, unsigned char *changed)
 {
     const pg_tip *own = &w->tip[tip];
@@ -251,7 +252,7 @@ done:
     return status;
 }
 
-/* A tip of a new crack, piece k. */
+/* Adds a tip at end `at` of a new crack, piece k. */
 static void add_tip (pg_crack_paths *w, size_t k, int at)
 {
     const double *x = vertex_of (w, k, at);
@@ -284,7 +285,7 @@ done:
     return status;
 }
 
-/* Boxes of the index stay as they are: a crack that cuts less lies within them. */
+/* Increases the offset of a tip that has not grown. The index remains valid, as the crack cuts less. */
 int pg_paths_draw_back (pg_crack_paths *w, size_t tip, double offset)
 {
     pg_tip *t = &w->tip[tip];

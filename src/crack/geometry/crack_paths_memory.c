@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Memory of the paths of growing cracks (crack_paths.c): made with a state, copied with it, kept in its
- * checkpoints. */
+ * Memory of the paths of growing cracks (crack_paths.c): creation, copies, checkpoints. */
 #include "perigal/crack.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-/* Vertices and retreats of the pieces lie in one block, and move with it. */
+/* Sets the pointers of pieces to their vertices and retreats, which are in one block of memory. */
 static void point_into_store (pg_crack_paths *w)
 {
     for (size_t k = 0; k < w->cracks.n; k++)
         w->cracks.crack[k].vertex = w->store + 6*k, w->cracks.crack[k].retreat = w->store + 6*k + 4;
 }
 
-/* Room for n pieces in all arrays. */
+/* Reserves memory for n pieces in all arrays. */
 pg_status pg_crack_paths_reserve (pg_crack_paths *w, size_t n)
 {
     pg_status status = PG_OK;
@@ -33,7 +32,7 @@ int pg_crack_paths_same (const pg_crack_paths *w, const double *a, const double 
     return fabs (x) <= w->nothing && fabs (y) <= w->nothing && hypot (x, y) <= w->nothing;
 }
 
-/* Pieces k and j share a vertex. */
+/* Returns 1: pieces k and j share a vertex. */
 static int hang_together (const pg_crack_paths *w, size_t k, size_t j)
 {
     const double *a = w->cracks.crack[k].vertex, *b = w->cracks.crack[j].vertex;
@@ -42,7 +41,8 @@ static int hang_together (const pg_crack_paths *w, size_t k, size_t j)
     return 0;
 }
 
-/* Cracks of the scene that share vertices are one path, named after its first piece. */
+/* Numbers the paths: cracks of the scene that share vertices form one path, with the number of its first
+ * piece. */
 static void name_paths (pg_crack_paths *w)
 {
     for (size_t k = 0; k < w->cracks.n; k++) {
@@ -118,9 +118,8 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* The counts first: arrays of that length follow. A facet has cut one bond at least. The normal of a piece is
- * kept too: that of a piece of which a part was split off, or of a crack of the scene, is another in its last
- * digit than what its ends would give. */
+/* Writes or reads paths: counts first, then arrays. Normals are stored, as recomputing them from the vertices
+ * could change their last digit (for split pieces and cracks of the scene). */
 pg_status pg_paths_keep (pg_crack_paths *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Surfaces of cracks that grow in space: triangles from where a crack of the scene, or a new crack, cut to
- * where it cuts now, a distance o behind its fronts. A step of a front (doc/method.md, "Surfaces that grow"):
+ * Surfaces of growing 3D cracks: triangles from the initial edge of the cutting part of a crack to the
+ * present one, a distance o behind its fronts. A step of a front (doc/method.md, "Surfaces that grow"):
  *
- *   1 every vertex goes d in its direction, or to what it meets there; ends go back onto the surface;
- *   2 the place where the crack cuts behind it follows at the distance o, along the way that it went;
+ *   1 every vertex moves by d in its direction, or to an obstacle it meets; ends return to the surface;
+ *   2 the edge of the cutting part follows each vertex at the distance o, along its path;
  *   3 vertices that met something are closed: the crack cuts to their end there, on the surface a spacing
- *     further; what lies between closed vertices are the fronts from now on, with vertices distributed anew;
- *   4 triangles between the line where the surface ended and the new one, with the bend of the old front
- *     between them where the crack kinks.
+ *     further; the parts between closed vertices become the new fronts, with vertices redistributed;
+ *   4 triangles are added between the old and the new edge of the surface, bent at the old front
+ *     where the crack kinks.
  *
- * The surfaces are spoilt by a step that fails (crack_bonds.c works on a copy). */
+ * A step that fails leaves the surfaces in an undefined state (crack_bonds.c works on a copy). */
 #include "crack_surfaces.h"
 #include <stdint.h>
 #include <string.h>
 
-/* Overlap with what the crack of the scene cuts, behind its own offset, where it begins to grow: spacings. */
+/* Overlap of the first triangles with the part of the crack of the scene that cuts, spacings. */
 #define OVERLAP 0.1
-/* Bends of the surface by less than this are not drawn, spacings. */
+/* Smaller bends of the surface at the old front are neglected, spacings. */
 #define BEND 0.01
-/* Cosine of the angle between the ways of two vertices that meet the same face of the body. */
+/* Cosine of the angle between directions of two vertices above which they meet the same face of the body. */
 #define SAME_FACE 0.9
 
-/* Does the surface bend between the old line and the new one? */
+/* Returns 1: the surface bends at the old front. */
 static int bends (const stride *s)
 {
     for (size_t i = 0; i < s->old.n; i++) {
@@ -35,8 +35,8 @@ static int bends (const stride *s)
     return 0;
 }
 
-/* The area that the front has swept: inside the body, for its ends are put back onto the surface. Four places
- * in no plane: the mean of both pairs of triangles between them. */
+/* Area swept by the front, m^2 (inside the body, as ends are on its surface): for each pair of vertices the
+ * mean of both triangulations of the quadrilateral. */
 static double swept (const stride *s)
 {
     double area = 0;
@@ -92,7 +92,8 @@ done:
     return status;
 }
 
-/* Places c of the vertices of a front from number `first` on, with what lies beyond its ends if asked. */
+/* Adds positions c of the vertices of a front, from index `first` on, to the line, extended beyond its ends
+ * if starts, stops. */
 static pg_status line_of (stride *s, const pg_front *f, const double *c, size_t first, int starts, int stops)
 {
     pg_status status = PG_OK;
@@ -105,7 +106,7 @@ done:
     return status;
 }
 
-/* The line so far is the rim of the old front: triangles from it go on to the next line. */
+/* Makes the line the rim of the old front, from which the next triangles start. */
 static pg_status take_as_rim (stride *s)
 {
     pg_status status = PG_OK;
@@ -117,7 +118,7 @@ done:
     return status;
 }
 
-/* Triangles from the rim to the line, which is the rim then. */
+/* Adds triangles from the rim to the line, which becomes the new rim. */
 static pg_status tile (stride *s)
 {
     pg_status status = PG_OK;
@@ -129,8 +130,8 @@ done:
     return status;
 }
 
-/* Where a crack of the scene begins to grow, it cuts up to its offset behind the front; the corners of its
- * front are as far behind as the bisector makes them. */
+/* Makes the first rim of a crack of the scene that begins to grow: behind its front, overlapping the part
+ * that cuts; at corners along the bisector. */
 static pg_status first_rim (stride *s)
 {
     pg_status status = PG_OK;
@@ -149,8 +150,7 @@ done:
     return status;
 }
 
-/* Vertices first .. first + m - 1 (of a loop: beyond its end from its beginning on) as a front of their
- * own. */
+/* Makes a separate front of vertices first .. first + m - 1 (cyclic in a loop). */
 static pg_status part_of (stride *s, size_t first, size_t m, pg_front *out, double **c)
 {
     pg_status status = PG_OK;
@@ -185,7 +185,7 @@ done:
     return status;
 }
 
-/* A front that is left takes the place of the old one, further ones come behind all others. */
+/* Stores a remaining part: the first one replaces the old front, further ones are appended as new fronts. */
 static pg_status settle (stride *s, pg_front *part, size_t *parts)
 {
     pg_status status = PG_OK;
@@ -203,8 +203,8 @@ done:
     return status;
 }
 
-/* Between two closed vertices on different faces of the body lies an edge or a corner of it, which the
- * straight line between them would leave whole: the line goes on around it. What lies there is swept, too. */
+/* Between two closed vertices on different faces of the body lies an edge or corner of the body that a
+ * straight line would not cut: adds a vertex beyond it, and the area to the swept area. */
 static pg_status around_edge (stride *s, size_t i, size_t j)
 {
     pg_status status = PG_OK;
@@ -224,7 +224,7 @@ done:
     return status;
 }
 
-/* The parts between closed vertices, one after the other, and the line that they make with these. */
+/* Makes the new fronts between closed vertices, and the new line through all vertices. */
 static pg_status divide (stride *s)
 {
     pg_status status = PG_OK;
@@ -239,13 +239,14 @@ static pg_status divide (stride *s)
         PG_TRY (settle (s, &part, &parts));
         goto done;
     }
-    /* a loop: at a closed vertex behind one that goes on, so that no two closed ones are parted here */
+    /* a loop starts at a closed vertex preceded by an open one, so that neighbouring closed vertices stay
+     * together */
     while (loop && begin < n && !(s->shut[begin] && !s->shut[(begin + n - 1) % n])) begin++;
     if (begin == n) begin = 0;
-    size_t steps = n + (size_t) loop;                  /* of a loop the first one closes it, too */
+    size_t steps = n + (size_t) loop;                  /* in a loop the first vertex is also the last */
     for (size_t k = 0; k < steps; ) {
         size_t i = (begin + k) % n, m = 0;
-        int left = k > 0;                              /* a closed vertex, which the line has already */
+        int left = k > 0;  /* 1: the part begins with a closed vertex already in the line */
         if (s->shut[i] && k > 0 && s->shut[(i + n - 1) % n]) PG_TRY (around_edge (s, (i + n - 1) % n, i));
         if (s->shut[i] && !(loop && k == n)) {
             int last = !loop && k + 1 == n;
@@ -261,11 +262,11 @@ static pg_status divide (stride *s)
         PG_TRY (stride_lay (s, &part, c, left, !left, !right));
         PG_TRY (settle (s, &part, &parts));
         pg_free (c), c = NULL;
-        k += m + (size_t) right;                       /* the closed vertex on the right is laid */
+        k += m + (size_t) right;  /* the closed vertex on the right is already in the line */
     }
     if (parts == 0) s->w->front[s->number].open = 0, s->w->front[s->number].nrim = 0;
-    /* the last part of a loop has laid the vertex with which the line begins once more; a line with one
-     * vertex twice has other shortest ways across than its mirror image */
+    /* the last part of a loop repeats the first vertex of the line; duplicates would break the mirror
+     * symmetry of triangles */
     if (loop && s->nline > 1
         && pg_distance3 (s->w->vertex + 3 * s->line[0], s->w->vertex + 3 * s->line[s->nline - 1])
                <= s->w->nothing)
@@ -300,11 +301,11 @@ done:
     return status;
 }
 
-/* Of a vertex that ends where it is: this and what it meets there; 0: it does not end. */
+/* Code of a vertex that ends where it is: END_OF + PG_MEETS_...; 0: it does not end. */
 enum { END_OF = 1 };
 
-/* One front; `ends`: vertices that end where they are, NULL: none. met: for vertices of all fronts, one array
- * after the other in the order of `start`, whether this step has run into them; NULL: not wanted. */
+/* Step of one front. ends: codes END_OF of vertices that end where they are, or NULL. met: codes of vertices
+ * of all fronts (front g from start[g] on) that this step has run into; NULL: not wanted. */
 static pg_status step (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
                        const double *theta, const unsigned char *ends, unsigned char *met,
                        const size_t *start, size_t nfront)
@@ -338,7 +339,7 @@ done:
     return status;
 }
 
-/* The step of a front, then of those that it has met, which end there. */
+/* Step of a front, then of fronts that it has met, which end there. */
 static pg_status step_all (pg_crack_surfaces *w, const pg_ground *p, size_t front, const double *d,
                            const double *theta, const unsigned char *ends)
 {
@@ -351,7 +352,7 @@ static pg_status step_all (pg_crack_surfaces *w, const pg_ground *p, size_t fron
     PG_TRY (step (w, p, front, d, theta, ends, met, start, nfront));
     for (size_t g = 0; g < nfront; g++) {
         if (g == front || !memchr (met + start[g], END_OF + PG_MEETS_CRACK, w->front[g].n)) continue;
-        PG_TRY (pg_cracks_index (&w->cracks));         /* there are new triangles */
+        PG_TRY (pg_cracks_index (&w->cracks));         /* to include the new triangles */
         PG_TRY (step (w, p, g, NULL, NULL, met + start[g], NULL, start, nfront));
     }
 done:

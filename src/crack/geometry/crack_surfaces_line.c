@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A front as a line: its tangents, the frames of its vertices, and the vertices distributed anew. Between
- * corners, which stay corners, vertices lie on a cubic through the old ones (Hermite, with the slope of the
- * parabola through three neighbours), at equal parts of the length measured in local spacings. A stretch
- * whose vertices are 0.6 to 1.5 spacings apart is left as it is. */
+ * A front as a curve: tangents, frames of vertices, and redistribution of vertices. Between corners, which
+ * are kept, new vertices lie on a cubic through the old ones (Hermite, with the slope of the parabola through
+ * three neighbours), at equal lengths measured in local spacings. A part whose vertices are 0.6 to 1.5
+ * spacings apart is unchanged. */
 #include "crack_surfaces.h"
 #include <string.h>
 
@@ -10,7 +10,7 @@ static const double nearest_apart = 0.6, farthest_apart = 1.5;
 #define CORNER 0.64                                    /* cosine of the turn at a corner, 50 degrees */
 
 /* ---- slopes -------------------------------------------------------------------------------------------- */
-/* The vertex `by` places further along; -1: the front ends before. */
+/* Index of the vertex `by` steps further along; -1: beyond the end. */
 static long beside (const pg_front *f, size_t i, long by)
 {
     long n = (long) f->n, j = (long) i + by;
@@ -18,8 +18,8 @@ static long beside (const pg_front *f, size_t i, long by)
     return j >= 0 && j < n ? j : -1;
 }
 
-/* Derivative of the values x (n x 3) with respect to the length s of the front at vertex i: of the parabola
- * through it and its neighbours; at an end of the straight line to the next one. */
+/* Derivative of the values x (n x 3) with respect to the length s of the front at vertex i: from the parabola
+ * through three vertices; at an end from the straight line to the neighbour. */
 static void slope (const pg_front *f, const double *x, size_t i, double *out)
 {
     long a = beside (f, i, -1), b = beside (f, i, 1);
@@ -32,7 +32,7 @@ static void slope (const pg_front *f, const double *x, size_t i, double *out)
     }
 }
 
-/* At an end: of the parabola through the end, its neighbour and the next. */
+/* Unit tangent; at an end from the parabola through the last three vertices. */
 void front_tangent (const pg_front *f, size_t i, double *tangent)
 {
     slope (f, f->x, i, tangent);
@@ -44,7 +44,7 @@ void front_tangent (const pg_front *f, size_t i, double *tangent)
     if (!pg_unit3 (tangent)) pg_cross3 (f->ahead + 3*i, f->normal + 3*i, tangent);
 }
 
-/* Ahead first, then the normal, which keeps its side: t = e x n. */
+/* Orthogonalises the frames, `ahead` first, then the normal, which keeps its side: t = e x n. */
 void front_frames (pg_front *f)
 {
     for (size_t i = 0; i < f->n; i++) {
@@ -80,7 +80,8 @@ static double straightness (const pg_front *f, size_t i)
     return pg_unit3 (u) && pg_unit3 (v) ? pg_dot3 (u, v) : 1;
 }
 
-/* A corner turns by much more than its neighbours: small loops turn everywhere. */
+/* Returns 1: vertex i is a corner, which turns much more than its neighbours (small loops turn
+ * everywhere). */
 static int is_corner (const pg_front *f, size_t i)
 {
     long a = beside (f, i, -1), b = beside (f, i, 1);
@@ -90,10 +91,10 @@ static int is_corner (const pg_front *f, size_t i)
            && acos (fmax (-1, straightness (f, (size_t) b))) < 0.5 * turn;
 }
 
-/* Where a new vertex lies: on the segment from vertex `from`, at the share `t` of it. */
+/* Position of a new vertex: at the fraction t of the segment that starts at vertex `from`. */
 typedef struct { size_t from; double t; } spot;
 
-/* Length of segment i in spacings, those at its middle. */
+/* Length of segment i in local spacings (at its middle). */
 static double spacings_of (const pg_front *f, const pg_ground *p, size_t i)
 {
     const double *a = f->x + 3*i, *b = f->x + 3 * ((i + 1) % f->n);
@@ -101,8 +102,8 @@ static double spacings_of (const pg_front *f, const pg_ground *p, size_t i)
     return pg_distance3 (a, b) / pg_ground_spacing_at (p, middle);
 }
 
-/* The vertices of the stretch from corner `first` over m segments, but for its last one: as they are, or
- * distributed anew. Returns how many; *moved: they are others. */
+/* Vertices of the part from corner `first` over m segments, without the last one: unchanged, or redistributed
+ * (*moved = 1). Returns their number. */
 static size_t spots_of (const pg_front *f, const pg_ground *p, size_t first, size_t m, size_t least,
                         spot *out, size_t room, int *moved)
 {
@@ -133,7 +134,8 @@ static size_t spots_of (const pg_front *f, const pg_ground *p, size_t first, siz
     return n;
 }
 
-/* The vertices of a loop without corners: as they are, or at equal parts from where a loop begins. */
+/* Vertices of a loop without corners: unchanged, or redistributed from the loop's first vertex (*moved =
+ * 1). */
 static size_t spots_of_loop (const pg_front *f, const pg_ground *p, spot *out, size_t room, int *moved)
 {
     double total = 0, shortest = INFINITY, longest = 0, share;
@@ -148,8 +150,9 @@ static size_t spots_of_loop (const pg_front *f, const pg_ground *p, spot *out, s
         return n;
     }
     *moved = 1;
-    double passed = -share * spacings_of (f, p, first);    /* way to the segment, from the first new vertex */
-    for (size_t k = 0; k <= f->n && n < parts; k++) {      /* the first segment once more at the end */
+    /* length from the first new vertex to the segment, spacings */
+    double passed = -share * spacings_of (f, p, first);
+    for (size_t k = 0; k <= f->n && n < parts; k++) {      /* the first segment is repeated at the end */
         size_t i = (first + k) % f->n;
         double s = spacings_of (f, p, i);
         for (; n < parts; n++) {
@@ -162,13 +165,13 @@ static size_t spots_of_loop (const pg_front *f, const pg_ground *p, spot *out, s
     return n;
 }
 
-/* Values x (n x 3) at a spot: the cubic of their slopes. */
+/* Interpolates values x (n x 3) at a spot by the Hermite cubic. */
 static void value_at (const pg_front *f, const double *x, spot q, double *out)
 {
     size_t i = q.from, j = (i + 1) % f->n;
     double a[3], b[3], t = q.t, l = pg_distance3 (f->x + 3*i, f->x + 3*j);
     if (t == 0 || !(l > 0)) { memcpy (out, x + 3*i, 3 * sizeof *out); return; }
-    /* beyond a corner the line goes on otherwise: its own direction counts there */
+    /* at corners the slope is that of the segment itself */
     if (is_corner (f, i)) for (size_t k = 0; k < 3; k++) a[k] = (x[3*j + k] - x[3*i + k]) / l;
     else slope (f, x, i, a);
     if (is_corner (f, j)) for (size_t k = 0; k < 3; k++) b[k] = (x[3*j + k] - x[3*i + k]) / l;
@@ -179,7 +182,7 @@ static void value_at (const pg_front *f, const double *x, spot q, double *out)
         out[k] = h00 * x[3*i + k] + h10 * l * a[k] + h01 * x[3*j + k] + h11 * l * b[k];
 }
 
-/* The new vertices with all they have. */
+/* Replaces the vertices of a front, with all their data and *c, by those at the spots q. */
 static pg_status move_to (pg_front *f, double **c, const spot *q, size_t n)
 {
     pg_status status = PG_OK;

@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What lies ahead of a vertex of a front in space: the surface of the body, a crack, another front. As in the
- * plane (solve/growth/facet_place.c), a vertex that would end within 1.5 spacings of the surface goes
- * straight on
- * into it, for there is no room any more for integrals around it; one that would end within 0.6 spacings of a
- * crack, or of a front, goes there. */
+ * Obstacles ahead of a vertex of a 3D front: the surface of the body, a crack, another front. As in 2D
+ * (solve/growth/facet_place.c), a vertex that would end within 1.5 spacings of the surface moves straight on
+ * to it, as integrals around it have no room; one that would end within 0.6 spacings of a crack or front
+ * moves there. */
 #include "crack_surfaces.h"
 #include <string.h>
 
 static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
-/* A surface at an angle is looked for so far away, spacings. */
+/* Range of the search for an oblique surface, spacings. */
 static const double seen_to = 10;
-/* Nearer hits are the crack that the vertex itself belongs to, spacings. Vertices that were distributed anew
- * beside a stretch that stayed lie up to t (1 - t)^2 / 2 = 0.074 behind the outline that the crack was drawn
- * with: the cubic through them swings so far to the other side of a step of one spacing. What belongs to
- * another crack cannot be so near: a vertex goes there as soon as it would end within 0.6 spacings of it. */
+/* Nearer hits, in spacings, belong to the vertex's own crack: redistributed vertices lie up to t (1 - t)^2 /
+ * 2 = 0.074 behind the drawn outline of the crack, by the overshoot of the cubic. Another crack cannot be so
+ * near, as vertices that would end within 0.6 spacings of it move there. */
 static const double own = 0.15;
 
-/* Distance at which a ray meets a plane crack, drawn whole; INFINITY: nowhere up to `limit`, or along it. */
+/* Distance, m, at which a ray meets the whole of a plane crack (without retreat); INFINITY: not within
+ * `limit`, or parallel. */
 static double ray_to_crack (const pg_crack *c, const double *x, const double *e, double limit, double h)
 {
     const double *o = c->kind == PG_CRACK_DISC ? c->centre : c->vertex;
@@ -31,7 +30,7 @@ static double ray_to_crack (const pg_crack *c, const double *x, const double *e,
     return pg_crack_touches (&whole, 3, place, PG_NO_LENGTH * h) ? r : INFINITY;
 }
 
-/* The first crack that a ray meets. The boxes of the cracks tell of most of them that they are elsewhere. */
+/* Distance, m, to the first crack that a ray meets; bounding boxes exclude most cracks. */
 static double ray_to_cracks (const pg_cracks *c, const double *x, const double *e, double limit, double h)
 {
     double best = INFINITY;
@@ -45,7 +44,7 @@ static double ray_to_cracks (const pg_cracks *c, const double *x, const double *
     return best;
 }
 
-/* The place of the segment a - b nearest to x; returns the distance. */
+/* Finds the point of the segment a - b nearest to x; returns the distance, m. */
 static double nearest_of (const double *a, const double *b, const double *x, double *place)
 {
     double t[3], v[3];
@@ -55,7 +54,8 @@ static double nearest_of (const double *a, const double *b, const double *x, dou
     return pg_distance3 (place, x);
 }
 
-/* Do two segments of one front lie beside each other along it, or show the same way? */
+/* Returns 1: two segments of one front are near each other along it, or advance in similar directions, so
+ * that they cannot meet. */
 static int same_stretch (const pg_front *f, size_t i, size_t j, size_t next)
 {
     size_t ring = i > j ? i - j : j - i;
@@ -64,7 +64,8 @@ static int same_stretch (const pg_front *f, size_t i, size_t j, size_t next)
            || pg_dot3 (f->ahead + 3*i, f->ahead + 3*next) > 0;
 }
 
-/* The place of another front, or of another part of the vertex's own, nearest to `goal`, which lies ahead. */
+/* Finds the point ahead, of another front or another part of the vertex's own, nearest to `goal`; returns its
+ * distance, m. */
 static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
                          const double *goal, double limit, double *place)
 {
@@ -84,9 +85,9 @@ static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, con
     return best;
 }
 
-/* The line in which the surface cuts a plane of the crack, seen from x in the direction e: through where two
- * rays end that leave by 30 degrees to both sides of it. u: unit, in that plane, across e. The foot is the
- * place of that line nearest to x; `along` its direction (unit, towards u); 0: a ray does not end. */
+/* Approximates the line in which the surface cuts the plane of e and u by the ends of two rays from x at 30
+ * degrees to both sides of e. foot: the point of that line nearest to x; along: its direction (unit, towards
+ * u). Returns 0: a ray does not end within `limit`. */
 int space_foot (const pg_ground *p, const double *x, const double *e, const double *u, double limit,
                 double *foot, double *along)
 {
@@ -103,7 +104,8 @@ int space_foot (const pg_ground *p, const double *x, const double *e, const doub
     return 1;
 }
 
-/* A surface that a vertex passes by, rather than going into it, is seen at less than 45 degrees. */
+/* Returns 1: vertex i passes the surface rather than approaching it: the surface is inclined by less than 45
+ * degrees to e, or not found. */
 static int passes_by (const pg_ground *p, const pg_front *f, size_t i, const double *e, double limit)
 {
     double u[3], foot[3], along[3];

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Memory of the surfaces of growing cracks (crack_surfaces.c) and of their fronts: made with a state, copied
- * with it, kept in its checkpoints. Triangles are kept as their corners among the vertices, so that the
- * neighbours which a resumed run sees are bit by bit those of the run that wrote the checkpoint. */
+ * Memory of the surfaces of growing cracks (crack_surfaces.c) and of their fronts: creation, copies,
+ * checkpoints. Checkpoints contain the vertex indices of triangles, so that neighbouring triangles share
+ * vertices exactly in a resumed run. */
 #include "crack_surfaces.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 /* ---- fronts -------------------------------------------------------------------------------------------- */
-/* Makes room for n vertices of a front, and as many more: it seldom moves while it grows one by one. */
+/* Reserves memory for at least n vertices of a front, with a surplus for growth. */
 pg_status pg_front_reserve (pg_front *f, size_t n)
 {
     pg_status status = PG_OK;
@@ -62,7 +62,7 @@ done:
 }
 
 /* ---- triangles ----------------------------------------------------------------------------------------- */
-/* Places of the corners lie in one block, and move with it. */
+/* Sets the pointers of triangles to the positions of their corners, which are in one block of memory. */
 static void point_into_store (pg_crack_surfaces *w)
 {
     for (size_t k = w->nfirst; k < w->cracks.n; k++)
@@ -82,8 +82,9 @@ done:
     return status;
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
-/* Cracks of the scene are the problem's: a state has their vertices by reference, for they do not change. */
+/* ---- creation, copies ---------------------------------------------------------------------------------- */
+/* Creates the surfaces of a state. Vertices of cracks of the scene are borrowed from the problem, as they do
+ * not change. */
 pg_status pg_surfaces_of (pg_crack_surfaces **out, const pg_cracks *cracks, const pg_front *front,
                           size_t nfront, double nothing)
 {
@@ -138,7 +139,7 @@ void pg_crack_surfaces_free (pg_crack_surfaces **surfaces)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* The vertices of a front and what they meet, and its rim. */
+/* Writes or reads the vertices of a front, what they meet, and its rim. */
 static pg_status keep_front (pg_front *f, const char *name, size_t i, size_t nvertex, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -172,7 +173,8 @@ done:
     return status;
 }
 
-/* The counts first. Of triangles the normals are kept as they are, for slivers have theirs from the front. */
+/* Writes or reads surfaces: counts first, then arrays. Normals of triangles are stored, as they cannot be
+ * recomputed for slivers. */
 pg_status pg_surfaces_keep (pg_crack_surfaces *w, long most, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;

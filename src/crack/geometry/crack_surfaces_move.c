@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the vertices of a front go in a step, which of them are closed, and where the crack cuts behind
+ * Motion of the vertices of a front in a step, closed vertices, and the edge of the cutting part behind
  * them. */
 #include "crack_surfaces.h"
 #include <string.h>
 
-/* A part between closed vertices of so few vertices goes on, at most so many spacings, and is closed, too. */
+/* A part of at most so many vertices between closed ones advances to the surface and is closed, too. */
 enum { FEW = 1 };
-/* What is seen from an end on the surface is looked at from so far inside, parts of the way to its
- * neighbour. */
+/* Rays from an end on the surface start this far inside, as a fraction of the distance to its neighbour. */
 #define INSIDE 1e-3
-/* A loop that closes in on itself: shorter than so many spacings. */
+/* A shrinking loop shorter than this is closed, spacings. */
 #define LOOP 5.0
 
-/* The surface beside the end of a front is looked for so far from its neighbour, spacings. */
+/* Range of the search for the surface beside the end of a front, from its neighbour, spacings. */
 #define FOOT 8.0
 
 double stride_spacing (const stride *s, size_t i)
@@ -44,7 +43,7 @@ void stride_shut (stride *s, size_t i, unsigned char meets)
     s->shut[i] = 1, s->now.meets[i] = meets;
 }
 
-/* Each vertex for itself; ends, which lie on the surface, see nothing ahead of them. */
+/* Moves each vertex separately; ends, which lie on the surface, are not tested for obstacles. */
 static void move (stride *s, const double *d, const double *theta)
 {
     for (size_t i = 0; i < s->old.n; i++) {
@@ -63,9 +62,9 @@ static void move (stride *s, const double *d, const double *theta)
     }
 }
 
-/* The surface beside the end of a front, seen from its neighbour at `from` in the plane of the way e and the
- * normal n there: the place nearest to it and the direction of the surface in that plane, ahead. 0: not
- * seen. */
+/* Finds the surface beside the end of a front: foot: its point nearest to the end's neighbour at `from` (m),
+ * in the plane of its direction of motion and the tangent; along: direction of the surface in that plane,
+ * forward. Returns 0: not found. */
 static int surface_beside (const stride *s, size_t end, size_t beside, const double *from, const double *e,
                            const double *n, double *foot, double *along)
 {
@@ -80,8 +79,8 @@ static int surface_beside (const stride *s, size_t end, size_t beside, const dou
     return 1;
 }
 
-/* An end that is closed goes along the surface; where that is not seen, its way without what leads away from
- * there, to its neighbour. */
+/* Makes the direction of motion of a closed end parallel to the surface; if that is not found, removes its
+ * component towards the neighbour. */
 static void along_surface (stride *s, size_t end, size_t beside)
 {
     double foot[3], along[3], out[3], *way = s->way + 3*end;
@@ -99,10 +98,9 @@ static void along_surface (stride *s, size_t end, size_t beside)
     pg_unit3 (way);
 }
 
-/* Where the end of a front on the surface goes: towards the place of the surface nearest to its neighbour in
- * the plane of the crack, for a front meets a free surface about at a right angle and its own slope there,
- * over less than a spacing, is noise that would throw an end along the surface. It never goes back, nor
- * further than twice as far as its neighbour and itself. 0: the surface has no such place. */
+/* Moves the end of a front on the surface towards the point of the surface nearest to its neighbour in the
+ * plane of the crack: a front meets a free surface about at a right angle, and its own slope over less than a
+ * spacing is noise. It never moves backwards, and at most by 2 go (m). Returns 0: no such point. */
 static int towards_foot (const stride *s, size_t end, size_t beside, double go, double *x)
 {
     const double *was = s->old.x + 3*end;
@@ -115,14 +113,14 @@ static int towards_foot (const stride *s, size_t end, size_t beside, double go, 
     return 1;
 }
 
-/* The end of a front goes back onto the surface, along the line from its neighbour. */
+/* Puts the end of a front back onto the surface, along the line from its neighbour. */
 static void put_back (stride *s, size_t end, size_t beside)
 {
     double *x = s->now.x + 3*end, *from = s->now.x + 3*beside, e[3];
     double h = stride_spacing (s, beside), own = pg_distance3 (x, s->old.x + 3*end),
            other = pg_distance3 (from, s->old.x + 3*beside);
     unsigned char meets;
-    if (s->shut[beside]) {                             /* it goes as far as its neighbour */
+    if (s->shut[beside]) {                             /* a closed neighbour: the end moves as far as it */
         int goes = own > 0 && s->now.meets[end] == PG_MEETS_SURFACE;
         along_surface (s, end, beside);
         pg_shift3 (s->old.x + 3*end, s->way + 3*end, goes ? other : 0, x);
@@ -140,8 +138,8 @@ static void put_back (stride *s, size_t end, size_t beside)
     s->now.meets[end] = meets;
 }
 
-/* Place k of a run of m vertices from `first` on; around a loop, or beyond the ends of the run its image by a
- * point reflection, which leaves straight lines alone. */
+/* Position k of a run of m vertices from `first` on; cyclic in a loop; beyond the ends of an open run by
+ * point reflection, which preserves straight lines. */
 static void run_place (const double *x, size_t n, size_t first, size_t m, int loop, long k, double *out)
 {
     long last = (long) m - 1, inside = loop ? k : k < 0 ? -k : k > last ? 2 * last - k : k;
@@ -152,11 +150,10 @@ static void run_place (const double *x, size_t n, size_t first, size_t m, int lo
     for (int c = 0; c < 3; c++) out[c] = 2 * end[c] - out[c];
 }
 
-/* Takes the waves of two vertices' length out of a run of the moved front, and leaves longer ones: a
+/* Smooths a run of the moved front: removes waves of a length of two vertices, and keeps longer ones: a
  * sixteenth of the fourth difference, x - delta^4 x / 16, keeps 1 - sin^4 (pi h / L) of a wave of length L
- * (Shapiro 1970). Only out of the crack, across the front and its way, and no more than half of the way that
- * a vertex went. Integrals over hats of three vertices do not see such waves, and kinks about a front that
- * zigzags make them larger. */
+ * (Shapiro 1970). Only normal to the crack surface, and by at most half of the distance that a vertex moved.
+ * Integrals over hats of three vertices do not detect such waves, which kinking would amplify. */
 static pg_status fair_run (stride *s, size_t first, size_t m, int loop)
 {
     pg_status status = PG_OK;
@@ -187,7 +184,7 @@ done:
     return status;
 }
 
-/* All runs between vertices that are closed. */
+/* Smooths all runs between closed vertices. */
 static pg_status fair (stride *s)
 {
     pg_status status = PG_OK;
@@ -203,7 +200,7 @@ done:
     return status;
 }
 
-/* A loop that shrinks onto a point. */
+/* Closes a loop that has shrunk to a small size at its centre. */
 static void close_loop (stride *s)
 {
     double middle[3] = { 0 }, inward = 0;
@@ -220,13 +217,13 @@ static void close_loop (stride *s)
     }
 }
 
-/* The last vertices of a ligament go straight on, as far as the surface is near. */
+/* Moves a last vertex of a ligament straight on to the surface, if that is near, and closes it. */
 static void run_out (stride *s, size_t i)
 {
     double h = stride_spacing (s, i), from[3];
     unsigned char meets;
     memcpy (from, s->old.x + 3*i, sizeof from);
-    if (stride_is_end (s, i)) {                               /* from a little inside of the surface */
+    if (stride_is_end (s, i)) {                               /* starts slightly inside the surface */
         size_t beside = i ? i - 1 : 1;
         along_surface (s, i, beside);
         for (size_t k = 0; k < 3; k++) from[k] += INSIDE * (s->old.x[3*beside + k] - from[k]);
@@ -236,7 +233,7 @@ static void run_out (stride *s, size_t i)
     stride_shut (s, i, meets);
 }
 
-/* Few vertices beside closed ones are closed as well: too short to be a front. */
+/* Closes parts of too few vertices between closed ones to be a front. */
 static void close_short (stride *s)
 {
     size_t n = s->old.n;
@@ -245,13 +242,13 @@ static void close_short (stride *s)
         int before = i ? s->shut[i - 1] : s->old.closed && s->shut[n - 1];
         if (s->shut[i] || !(before || (i == 0 && !s->old.closed))) continue;
         while (m < n && !s->shut[(i + m) % n] && (s->old.closed || i + m < n)) m++;
-        int alone = before + (s->old.closed || i + m < n ? 1 : 0);   /* closed vertices beside the part */
-        /* ends on the surface are no vertices of their own */
+        int alone = before + (s->old.closed || i + m < n ? 1 : 0);  /* number of sides with a closed vertex */
+        /* a part with an end on the surface may have one vertex more */
         if (alone > 0 && m <= FEW + (alone < 2)) for (size_t k = 0; k < m; k++) run_out (s, (i + k) % n);
     }
 }
 
-/* Vertices of the same front near the place where another part of it has met it. */
+/* Closes vertices of the same front near a point where another part of it has met it. */
 static void close_met_here (stride *s)
 {
     size_t n = s->old.n;
@@ -269,8 +266,8 @@ static void close_met_here (stride *s)
     }
 }
 
-/* ---- 2: where the crack cuts --------------------------------------------------------------------------- */
-/* Vertex of the rim before this step that is nearest to `place`, within 0.3 spacings; NULL: none is. */
+/* ---- 2: edge of the cutting part ----------------------------------------------------------------------- */
+/* Vertex of the old rim nearest to `place`, within 0.3 spacings; NULL: none. */
 static const double *rim_at (const stride *s, size_t i, const double *place)
 {
     const double *best = NULL;
@@ -282,7 +279,7 @@ static const double *rim_at (const stride *s, size_t i, const double *place)
     return best;
 }
 
-/* Beyond a vertex that is closed. */
+/* Distance by which the crack cuts beyond a closed vertex, m. */
 static double overshoot (const stride *s, size_t i, const double *way)
 {
     double h = stride_spacing (s, i), *x = s->now.x + 3*i;
@@ -295,7 +292,7 @@ static void follow (stride *s, size_t i)
     const double *from = s->old.x + 3*i, *to = s->now.x + 3*i, *e = s->old.ahead + 3*i;
     double *way = s->way + 3*i, *c = s->c + 3*i, *bend = s->bend + 3*i, behind[3];
     double d = pg_distance3 (from, to), before = s->old.offset[i], o;
-    if (d <= s->w->nothing) d = 0;                     /* an end put back where it was: rounding is no way */
+    if (d <= s->w->nothing) d = 0;                     /* motion by rounding only, of an end put back */
     o = fmin (front_offset_at (s->p, to), before + 0.25 * d);
     s->moved[i] = d, s->now.grown[i] += d;
     if (d > 0) for (int k = 0; k < 3; k++) way[k] = (to[k] - from[k]) / d;

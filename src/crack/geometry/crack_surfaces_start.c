@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A new crack in space: a convex polygon in a plane. Its outline inside the body is a front, or several where
- * the surface of the body comes between; it cuts bonds up to the offset behind them, and as far as the
- * polygon goes outside of the body. */
+ * A new 3D crack: a plane convex polygon. Its outline inside the body becomes one front, or several if
+ * interrupted by the surface of the body; it cuts bonds up to the offset behind fronts, and to its outline
+ * outside of the body. */
 #include "crack_surfaces.h"
 #include <string.h>
 
-/* Of a front, in parts of the square root of the area, at most. */
+/* Largest offset of a front, as a fraction of the square root of the area. */
 #define OFFSET_OF_SIZE 0.25
-/* A vertex so close to where its front ends gives way to the end, spacings. */
+/* Vertices closer than this to the end of their front are omitted, spacings. */
 #define NEAR_END 0.25
-/* Halvings of an edge where it leaves the body. */
+/* Bisections for the point where an edge leaves the body. */
 enum { HALVINGS = 50 };
 
 typedef struct {
-    stride s;                                          /* surfaces, problem, and where the crack cuts to */
+    stride s;                                          /* surfaces, body, and the edge of the cutting part */
     size_t n;
-    double *x;                                         /* the polygon, in the order of fronts (n x 3) */
+    double *x;  /* the polygon, in the direction of fronts, m (n x 3) */
     const double *normal;
     double middle[3], offset;
-    unsigned char *in;                                 /* whether its vertices lie in the body */
+    unsigned char *in;                                 /* 1: the vertex lies in the body (n) */
 } patch;
 
-/* The tangent of a front is ahead x normal: seen from the side that the normal shows to it runs clockwise. */
+/* Reads the polygon and orders it like fronts: tangent = ahead x normal, clockwise seen against the
+ * normal. */
 static pg_status read (patch *c, size_t n, const double *x)
 {
     pg_status status = PG_OK;
@@ -49,7 +50,7 @@ done:
     return status;
 }
 
-/* Where the edge from a vertex inside to one outside leaves the body. */
+/* Finds where the edge from a vertex inside to one outside leaves the body. */
 static void leave (const patch *c, size_t inside, size_t outside, double *place)
 {
     const double *a = c->x + 3*inside, *b = c->x + 3*outside;
@@ -73,7 +74,7 @@ static void put_vertex (const patch *c, pg_front *f, const double *x, unsigned c
     f->offset[i] = c->offset, f->grown[i] = 0, f->meets[i] = meets;
 }
 
-/* A run of m vertices inside from number `first` on (m = n: all of them, a loop). */
+/* Adds a front of m vertices inside the body from index `first` on (m = n: a loop). */
 static pg_status add_front (patch *c, size_t first, size_t m)
 {
     pg_status status = PG_OK;
@@ -82,7 +83,7 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     double *cut = NULL, place[3];
     PG_TRY (pg_front_reserve (&f, m + 2));
     if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
-    for (size_t k = 0; k < m; k++) {                   /* a first vertex next to the end is left out */
+    for (size_t k = 0; k < m; k++) {                   /* a first vertex too near to the end is omitted */
         const double *x = c->x + 3 * ((first + k) % n);
         if (k > 0 || f.closed || pg_distance3 (x, place) > NEAR_END * pg_ground_spacing_at (c->s.p, x))
             put_vertex (c, &f, x, PG_MEETS_NOTHING);
@@ -110,7 +111,7 @@ done:
     return status;
 }
 
-/* The outline once around: fronts inside, vertices outside as they are. */
+/* Goes around the outline: adds fronts inside the body, and vertices outside to the line. */
 static pg_status add_fronts (patch *c)
 {
     pg_status status = PG_OK;

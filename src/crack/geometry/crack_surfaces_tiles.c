@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Triangles between two lines of vertices, where a surface ended and where it ends now. Triangles share their
- * vertices, so that their planes meet in the same two places to the last bit, and what passes between two of
- * them passes within rounding of an edge, which counts as a cut (geometry/cloud/body/crack.c). */
+ * Triangles between two lines of vertices, the old and the new edge of a surface. Triangles share vertices
+ * exactly; a bond between two triangles passes within rounding of their common edge, which counts as a cut
+ * (geometry/cloud/body/crack.c). */
 #include "crack_surfaces.h"
 #include <string.h>
 
-/* Lower triangles than this are none: less than the tolerance within which a bond counts as cut, spacings. */
+/* Triangles of less height are omitted, spacings: less than the tolerance of a cut. */
 #define NO_HEIGHT 1e-10
 
 double triangle_area3 (const double *a, const double *b, const double *c)
@@ -52,15 +52,16 @@ static void put (pg_crack_surfaces *w, const pg_ground *p, size_t a, size_t b, s
     surfaces_put_triangle (w, (size_t[3]) { a, b, c }, n, PG_NO_LENGTH * h, owner);
 }
 
-/* Vertex i of a line, which begins anew behind the last one of a loop. */
+/* Vertex i of a line, cyclic in a loop. */
 static size_t at (const surface_line *l, size_t i) { return l->vertex[l->closed ? i % l->n : i]; }
 
-/* Ways whose lengths differ by no more than this share are as long: of a symmetric body they are, but for
- * the rounding of the solver, which would then choose. */
+/* Relative difference up to which lengths count as equal, so that in symmetric bodies rounding does not
+ * decide. */
 static const double same_length = 1e-6;
 
-/* Of two ways across, is the first one's middle as near to the middle of the body, or nearer? Of ways of one
- * length this chooses the same one in a mirror image of the body and from the other end of the lines. */
+/* Returns 1: the middle of the first cross edge is at least as near to the middle of the body as that of the
+ * other. Of edges of equal length this chooses symmetrically, independent of mirror images and the direction
+ * of lines. */
 static int nearer_middle (const pg_crack_surfaces *w, const pg_ground *p, const size_t *way,
                           const size_t *other)
 {
@@ -75,7 +76,7 @@ static int nearer_middle (const pg_crack_surfaces *w, const pg_ground *p, const 
     return near <= far * (1 + same_length);
 }
 
-/* Where two loops begin: with the shortest way between them. Else at their first vertices. */
+/* First vertices of two lines: for loops those with the shortest distance. */
 static void beginning (const pg_crack_surfaces *w, const pg_ground *p, const surface_line *from,
                        const surface_line *to, size_t *first, size_t *start)
 {
@@ -93,19 +94,19 @@ static void beginning (const pg_crack_surfaces *w, const pg_ground *p, const sur
         }
 }
 
-/* Steps along the lines, 1: along the first one, between which the ways across are shortest in all: of ways
- * of length d_ij across from i to j the least sum c_ij = d_ij + min (c_i-1,j, c_i,j-1). A choice at each step
- * by itself would be another one from the other end of the lines. */
+/* Finds the steps along the lines (1: along the first one) with the least sum of cross edges by dynamic
+ * programming: c_ij = d_ij + min (c_i-1,j, c_i,j-1), d_ij the length of the edge from i to j. A greedy choice
+ * would depend on the direction of the lines. */
 static pg_status shortest_ways (const pg_crack_surfaces *w, const pg_ground *p, const surface_line *from,
                                 const surface_line *to, size_t first, size_t start, size_t last, size_t end,
                                 unsigned char *step)
 {
     pg_status status = PG_OK;
-    unsigned char *along = NULL;                       /* how the least sum comes to i, j */
+    unsigned char *along = NULL;  /* 1: the least sum reaches i, j along the first line */
     double *sum = NULL;
     size_t wide = end + 1;
     PG_ALLOC (along, (last + 1) * wide);
-    PG_ALLOC (sum, wide);                              /* of row i, up to j; beyond j of the row before */
+    PG_ALLOC (sum, wide);                              /* row i up to j; beyond j the previous row */
     for (size_t i = 0; i <= last; i++)
         for (size_t j = 0; j <= end; j++) {
             size_t a = at (from, first + i), b = at (to, start + j);
@@ -133,7 +134,8 @@ pg_status surfaces_zip (pg_crack_surfaces *w, const pg_ground *p, const surface_
     pg_status status = PG_OK;
     unsigned char *step = NULL;
     if (from->n == 0 || to->n == 0) return PG_OK;
-    size_t last = from->n - !from->closed, end = to->n - !to->closed, first, start;    /* steps along each */
+    /* numbers of steps along each line */
+    size_t last = from->n - !from->closed, end = to->n - !to->closed, first, start;
     beginning (w, p, from, to, &first, &start);
     PG_ALLOC (step, last + end + 1);
     PG_TRY (shortest_ways (w, p, from, to, first, start, last, end, step));

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What lies around the tip of a crack in the plane: the surface of the body, which is met by rays
- * (body_search.c), and other cracks. */
+ * Distances from a 2D tip to its surroundings: the surface of the body, found by rays (body_search.c), and
+ * other cracks. */
 #include "perigal/crack.h"
 #include <math.h>
 #include <string.h>
 
-/* Rays of a search all around, and halvings of the angle between two of them. */
+/* Number of rays of a search all around, and of bisections of the angle between two of them. */
 enum { RAYS = 48, ANGLES = 30 };
 
 /* Distance along the ray at which it meets the segment a - b, widened by `slack` at both ends (m); INFINITY:
@@ -20,7 +20,7 @@ static double ray_to_segment (const double *x, const double *e, const double *a,
     return r >= -slack && s * length >= -slack && (s - 1) * length <= slack ? fmax (r, 0) : INFINITY;
 }
 
-/* The piece that ends in the tip does not count, all others do: a path may also meet itself. */
+/* All pieces but the one that ends in the tip are tested: a path may also meet itself. */
 double pg_tip_ahead (const pg_ground *p, const pg_crack_paths *w, size_t tip, const double *e, double limit,
                      int *what)
 {
@@ -31,7 +31,7 @@ double pg_tip_ahead (const pg_ground *p, const pg_crack_paths *w, size_t tip, co
         const double *a = w->cracks.crack[c].vertex;
         if (c == t->segment) continue;
         double d = ray_to_segment (t->x, e, a, a + 2, w->nothing);
-        /* the piece before hangs on the same vertex when the last one has no length to speak of */
+        /* the previous piece shares the vertex if the last one is negligibly short */
         if (w->path[c] == w->path[t->segment] && d <= w->nothing) continue;
         if (d < r) r = d, met = PG_MEETS_CRACK;
     }
@@ -39,7 +39,7 @@ double pg_tip_ahead (const pg_ground *p, const pg_crack_paths *w, size_t tip, co
     return r;
 }
 
-/* What the surface is seen at in one direction: the angle, the way to it and the place. */
+/* The surface in one direction from a point: angle (rad), distance (m), position (m). */
 typedef struct { double angle, way, place[2]; } sight;
 
 static sight look (const pg_ground *p, const double *x, double angle, double limit)
@@ -49,7 +49,7 @@ static sight look (const pg_ground *p, const double *x, double angle, double lim
     return (sight) { angle, way, { x[0] + way * e[0], x[1] + way * e[1] } };
 }
 
-/* The nearest place within `turn` of a direction, by halves to both sides alike. */
+/* Finds the nearest surface within `turn` (rad) of a direction by bisection of the angle, symmetrically. */
 static sight closer (const pg_ground *p, const double *x, sight best, double turn, double limit)
 {
     for (int i = 0; i < ANGLES; i++) {
@@ -61,8 +61,8 @@ static sight closer (const pg_ground *p, const double *x, sight best, double tur
     return best;
 }
 
-/* The direction in which the nearest surface of the shapes lies, which may be the end of a slot that rays
- * pass by: against the slope of the distance. 0: there is none. */
+/* Direction (rad) of the nearest surface of the shapes, which may be the end of a slot missed by rays: minus
+ * the gradient of the distance. Returns 0: none. */
 static int towards_shapes (const pg_ground *p, const double *x, double *angle)
 {
     double d[4], step = 1e-3 * pg_ground_spacing_at (p, x);
@@ -75,8 +75,8 @@ static int towards_shapes (const pg_ground *p, const double *x, double *angle)
     return hypot (d[1] - d[0], d[3] - d[2]) > 0;
 }
 
-/* Of places as near, but for rounding, the one that lies farther ahead counts; of two as far ahead what lies
- * along the sum of the ways to them, such as the corner between two faces, if there is anything. */
+/* Keeps the nearer of two surface points; if equally near (to rounding), the one farther ahead; if also
+ * equally far ahead, the surface point in the direction between them, such as a corner between two faces. */
 static void keep_sight (const pg_ground *p, const double *x, const double *e, double limit, sight *best,
                         sight s)
 {
@@ -93,15 +93,15 @@ static void keep_sight (const pg_ground *p, const double *x, const double *e, do
     if (middle.way < limit) memcpy (best->place, middle.place, sizeof best->place);
 }
 
-/* The nearest place of the surface: rays all around, then closer in about each that is shorter than the two
- * beside it. Rays begin in direction e, so that a body that is turned with its crack gives the same. */
+/* Finds the nearest point of the surface, m: rays all around, refined about each local minimum. Rays start in
+ * direction e, so that results do not depend on rotations of the body. */
 static double nearest_of_surface (const pg_ground *p, const double *x, const double *e, double limit,
                                   double *place)
 {
     double first = atan2 (e[1], e[0]), turn = 2 * acos (-1) / RAYS, away, angle;
     const double middle[3] = { x[0], x[1], 0 };
     sight ray[RAYS], best = { .way = limit };
-    /* shapes know at once that their surface is far away */
+    /* quick test for shapes: the surface is far away */
     if (p->body->n && (pg_body_nearest (p->body, middle, &away), away >= limit)) return limit;
     for (int i = 0; i < RAYS; i++) ray[i] = look (p, x, first + i * turn, limit);
     for (int i = 0; i < RAYS; i++) {
@@ -117,10 +117,10 @@ static double nearest_of_surface (const pg_ground *p, const double *x, const dou
     return best.way;
 }
 
-/* What is found around a place. */
+/* The nearest obstacle found around a point: distance and position, m; what: PG_MEETS_.... */
 typedef struct { double distance, place[2]; int what; } found;
 
-/* Of places as near, but for `same`, the one that lies farther ahead counts. */
+/* Keeps the nearer of two obstacles; if equally near (within `same`, m), the one farther ahead. */
 static void keep_nearer (found *f, const double *e, double same, double distance, const double *place,
                          int what)
 {
@@ -130,8 +130,8 @@ static void keep_nearer (found *f, const double *e, double same, double distance
         *f = (found) { fmin (distance, f->distance), { place[0], place[1] }, what };
 }
 
-/* Other paths, other open tips, the surface. Of the tip's own path what lies behind does not count, and
- * branches of it as asked. */
+/* Nearest of other paths, other open tips, and the surface. The tip's own path is excluded; its branches are
+ * included if branches = 1. */
 static found nearest_about (const pg_ground *p, const pg_crack_paths *w, size_t tip, const double *x,
                             double limit, int branches)
 {

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the vertices of a front begin that is a loop without corners. They lie at equal parts of its length,
- * and which of the infinitely many such sets it is must follow from the loop and the lattice alone: a scene
- * that is turned by right angles or seen in a mirror has the same vertices then, turned or mirrored.
+ * First vertex of a front that is a loop without corners. Vertices divide the loop equally; the choice of the
+ * first must follow from the loop and the lattice alone, so that a scene rotated by right angles or mirrored
+ * has the rotated or mirrored vertices.
  *
- * A set of 4 m vertices is symmetric to each line through one of them and the middle of a loop that is so
- * itself. The first one therefore lies ahead of the middle in the direction of an axis of the lattice, as it
- * lies in the plane of the loop: of the axis farthest out of line with the normal. Where two axes are so
- * alike, the third one's direction lies alike to both of them; if the third one is the normal itself, the two
- * are at right angles, and 4 m vertices serve both. Where all three are alike, their directions are 60
- * degrees from each other and from each other's opposites: 12 m vertices. Of a direction and its opposite,
- * and of directions alike, the one counts in which the loop reaches farthest. */
+ * A set of 4 m vertices has the mirror symmetries of the loop about lines through its middle and a vertex.
+ * The first vertex therefore lies in the direction, projected into the plane of the loop, of the lattice axis
+ * most inclined to the normal. If two axes are equally inclined, the third is taken, which is symmetric to
+ * both; if that is the normal itself, the two are at right angles, and 4 m vertices suit both. If all three
+ * are equally inclined, their projections are 60 degrees apart (with opposites): 12 m vertices. Of a
+ * direction and its opposite, and of equivalent directions, the one is taken in which the loop extends
+ * farthest. */
 #include "crack_surfaces.h"
 #include <string.h>
 
-/* Axes whose shares of the normal differ by less are alike; an axis that lies nearer to the normal (sine of
- * the angle) than this has no direction in the plane. */
+/* Axes whose components of the normal differ by less than `alike` are equally inclined; an axis nearer to the
+ * normal than no_direction (sine of the angle) has no projection. */
 static const double alike = 0.05, no_direction = 1e-3;
 enum { FEW = 4, MANY = 12 };
 
-/* Appends axis k, as it lies in the plane across the unit normal, and its opposite. */
+/* Appends the unit projection of axis k into the plane with this unit normal, and its opposite; returns their
+ * number. */
 static int put_axis (const double *normal, int k, double direction[][3], int n)
 {
     double *a = direction[n], *b = direction[n + 1];
@@ -31,7 +32,7 @@ static int put_axis (const double *normal, int k, double direction[][3], int n)
 int front_loop_directions (const double *normal, double direction[LOOP_DIRECTIONS][3], size_t *parts)
 {
     int order[3] = { 0, 1, 2 };
-    for (int i = 0; i < 2; i++)                        /* by the share of the normal, the least first */
+    for (int i = 0; i < 2; i++)                        /* sorted by |component of the normal|, ascending */
         for (int j = 0; j < 2; j++)
             if (fabs (normal[order[j]]) > fabs (normal[order[j + 1]])) {
                 int swap = order[j];
@@ -60,8 +61,7 @@ size_t front_loop_parts (double length, size_t parts)
     return parts * (size_t) fmax (1, floor (length / (double) parts + 0.5));
 }
 
-/* The middle of a closed line of n places, each counted by the length beside it, and the unit normal of its
- * area. */
+/* Centroid of a closed line of n points (m), and the unit normal of its area. */
 static void middle_of (size_t n, const double *x, double *middle, double *normal)
 {
     double total = 0;
@@ -82,8 +82,8 @@ static void middle_of (size_t n, const double *x, double *middle, double *normal
     pg_unit3 (normal);
 }
 
-/* How far the line reaches in a direction from its middle: the farthest place where it passes there; -1:
- * nowhere. *from, *share: where that is, on the piece from that place to the next. */
+/* Largest distance, m, from the middle at which the line crosses the ray in a direction; -1: nowhere. *from,
+ * *share: segment and fraction of the crossing. */
 static double reach (size_t n, const double *x, const double *middle, const double *direction,
                      const double *normal, size_t *from, double *share)
 {

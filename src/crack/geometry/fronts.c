@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fronts of the pre-cracks in space: the parts of the rim of a disc, or of the outline of a polygon, that lie
- * inside the body, have body ahead of them and lie on no other crack. They are found on the cracks as drawn.
+ * Fronts of 3D pre-cracks: the parts of the rim of a disc, or of the outline of a polygon, that lie inside
+ * the body, have body ahead of them and lie on no other crack. They are found on the cracks as drawn.
  *
  * An outline is a closed curve x (s), s from 0 to 1, that runs with the tangent t = e x n (e outward in the
- * plane of the crack, n its normal; seen against n it runs clockwise). It is looked at in steps of a quarter
- * of the spacing; where a front begins or ends is found by bisection. Parts of different cracks whose ends
- * meet are one front. Vertices are then distributed about a spacing apart; sharp corners keep theirs. Where
- * those of a loop begin: front_loops.c. */
+ * plane of the crack, n its normal; seen against n it runs clockwise). It is tested in steps of a quarter of
+ * the spacing; ends of fronts are found by bisection. Parts of different cracks whose ends meet are joined
+ * into one front. Vertices are then distributed about a spacing apart; sharp corners are kept. First vertex
+ * of a loop: front_loops.c. */
 #include "crack_surfaces.h"
 #include <math.h>
 #include <string.h>
 
-/* Steps of a spacing; halvings of one; a body that ends so far ahead (spacings) ends at the crack; ends so
- * close (spacings) are one place. */
+/* Steps per spacing; of lines, per spacing; bisections; limit of steps. In spacings: distance ahead of an
+ * edge at which body is required; distance of ends that are joined; least length of a front. */
 enum { STEPS = 4, FINER = 8, HALVINGS = 44, MOST_STEPS = 20000 };
 static const double ahead = 0.1, together = 0.05, shortest = 0.5;
-static const double corner = 0.5;                      /* rad: a turn that keeps its vertex */
+static const double corner = 0.5;  /* rad: turns above are corners, whose vertex is kept */
 static const double pi = 3.14159265358979323846;
 
 /* ---- outlines ------------------------------------------------------------------------------------------ */
 typedef struct {
     const pg_ground *p;
-    const pg_cracks *cracks;                           /* all of them */
+    const pg_cracks *cracks;                           /* all cracks */
     const pg_crack *crack;
-    size_t number;                                     /* of the crack */
-    double length;                                     /* of the outline, m */
+    size_t number;                                     /* index of the crack */
+    double length;                                     /* length of the outline, m */
 } outline;
 
 /* Length of edge i of a polygon, from vertex i to the next. */
@@ -41,8 +41,8 @@ static double outline_length (const pg_crack *c)
     return length;
 }
 
-/* The place at s, which goes round from 1 to 0, and the unit vector outward there; returns the edge. Polygons
- * list their vertices against the tangent. */
+/* Position x (m) at s (cyclic), and the outward unit vector e there; returns the edge. Vertices of polygons
+ * are listed opposite to the tangent. */
 static size_t outline_at (const outline *o, double s, double *x, double *e)
 {
     const pg_crack *c = o->crack;
@@ -68,7 +68,7 @@ static size_t outline_at (const outline *o, double s, double *x, double *e)
     return i;
 }
 
-/* Does another crack pass through x? */
+/* Returns 1: another crack passes through x. */
 static int on_another (const outline *o, const double *x)
 {
     for (size_t c = 0; c < o->cracks->n; c++)
@@ -76,7 +76,7 @@ static int on_another (const outline *o, const double *x)
     return 0;
 }
 
-/* Is the place at s part of a front? *meets: why not. */
+/* Returns 1: the outline at s is part of a front; else *meets: PG_MEETS_... says why not. */
 static int is_front (const outline *o, double s, unsigned char *meets)
 {
     double x[3], e[3], place[3];
@@ -89,7 +89,7 @@ static int is_front (const outline *o, double s, unsigned char *meets)
     return *meets == PG_MEETS_NOTHING;
 }
 
-/* The end of a front between `in`, which is part of it, and `out`, which is not; part of it itself. */
+/* End of a front between s = in (part of it) and s = out (not), by bisection. */
 static double end_between (const outline *o, double in, double out, unsigned char *meets)
 {
     unsigned char why;
@@ -101,12 +101,12 @@ static double end_between (const outline *o, double in, double out, unsigned cha
     return in;
 }
 
-/* ---- lines: parts of outlines, as many places close to each other -------------------------------------- */
+/* ---- lines: parts of outlines as dense points ---------------------------------------------------------- */
 typedef struct {
-    pg_front f;                                        /* places, normals, offsets; closed */
+    pg_front f;                                        /* points, normals, offsets; closed */
     int used;
-    size_t parts;                                      /* of a loop: how many vertices are a multiple of it */
-    unsigned char first, last;                         /* what the ends meet */
+    size_t parts;                                      /* loops: the number of vertices is a multiple of it */
+    unsigned char first, last;                         /* PG_MEETS_... at the ends */
 } line;
 
 static pg_status put (pg_front *f, const double *x, const double *normal, double offset)
@@ -121,7 +121,7 @@ done:
     return status;
 }
 
-/* Where the vertices of a disc begin whose rim is a front all around. */
+/* Parameter s of the first vertex on a disc whose whole rim is a front. */
 static double disc_start (const pg_crack *c)
 {
     double direction[LOOP_DIRECTIONS][3], f[3], side[3];
@@ -132,7 +132,7 @@ static double disc_start (const pg_crack *c)
     return -atan2 (pg_dot3 (direction[0], side), pg_dot3 (direction[0], f)) / (2 * pi);
 }
 
-/* How many vertices the rim of a disc has then, a multiple of *parts. */
+/* Number of vertices on the whole rim of a disc, a multiple of *parts. */
 static size_t disc_parts (const outline *o, size_t *parts)
 {
     double direction[LOOP_DIRECTIONS][3];
@@ -140,7 +140,7 @@ static size_t disc_parts (const outline *o, size_t *parts)
     return front_loop_parts (o->length / o->p->cloud->h, *parts);
 }
 
-/* The part from s to s + length of an outline: vertices of a polygon between them, of a disc equal parts. */
+/* Draws the part of an outline from s to s + length: for a polygon its vertices, for a disc equal parts. */
 static pg_status draw (line *l, const outline *o, double s, double length, const double *retreat)
 {
     pg_status status = PG_OK;
@@ -157,14 +157,14 @@ static pg_status draw (line *l, const outline *o, double s, double length, const
     }
     edge = outline_at (o, s, x, e);
     if (!l->f.closed) PG_TRY (put (&l->f, x, c->normal, retreat ? retreat[edge] : 0));
-    /* vertices with s < s_i < s + length, twice around as the part may pass the first */
+    /* vertices with s < s_i < s + length; goes around twice, as the part may pass s = 1 */
     for (size_t round = 0, m = c->nvertex; round < 2 * m; round++) {
-        double behind = 0;                             /* way back from the end of the list to vertex i */
+        double behind = 0;                             /* s of vertex i, counted from the end of the list */
         size_t i = m - 1 - round % m;
         for (size_t j = i; j < m; j++) behind += edge_length (c, j) / o->length;
         double at = behind + (double) (round / m), tiny = 1e-9 * h / o->length;
         if (at < s + tiny || at > s + length + (l->f.closed ? tiny : -tiny)) continue;
-        size_t next = (i + m - 1) % m;                 /* the edge that begins here, against the list */
+        size_t next = (i + m - 1) % m;  /* the edge that begins at vertex i, in reverse order */
         double offset = retreat ? fmax (retreat[i], retreat[next]) : 0;
         PG_TRY (put (&l->f, c->vertex + 3*i, c->normal, offset));
     }
@@ -188,7 +188,7 @@ done:
     return status;
 }
 
-/* All parts of one outline that are fronts. */
+/* Finds all parts of one outline that are fronts. */
 static pg_status find_lines (lines *all, const outline *o, const double *retreat)
 {
     pg_status status = PG_OK;
@@ -198,7 +198,7 @@ static pg_status find_lines (lines *all, const outline *o, const double *retreat
     PG_ALLOC (in, n);
     for (size_t i = 0; i < n; i++) in[i] = (unsigned char) is_front (o, ((double) i + 0.5) * step, &why);
     while (start < n && in[start]) start++;
-    if (start == n) {                                  /* all of it */
+    if (start == n) {                                  /* the whole outline is a front */
         double from = o->crack->kind == PG_CRACK_DISC ? disc_start (o->crack) : 0;
         PG_TRY (add_line (all, o, from, 1, 0, 0, 1, retreat));
         goto done;
@@ -219,7 +219,7 @@ done:
 }
 
 /* ---- joining ------------------------------------------------------------------------------------------- */
-/* Reverses a line, with its ends and normals: its crack as seen from the other side. */
+/* Reverses a line, with its ends and normals. */
 static void reverse (line *l)
 {
     pg_front *f = &l->f;
@@ -236,7 +236,7 @@ static void reverse (line *l)
     l->first = l->last, l->last = end;
 }
 
-/* Appends b to a, whose end is its beginning. */
+/* Appends line b to line a, which ends where b begins. */
 static pg_status append (line *a, const line *b)
 {
     pg_status status = PG_OK;
@@ -247,7 +247,8 @@ done:
     return status;
 }
 
-/* Lines that end on each other's crack at one place become one; a line whose ends meet becomes a loop. */
+/* Joins lines of different cracks whose ends meet (within `near`, m); a line whose ends meet becomes a
+ * loop. */
 static pg_status join (lines *all, double near)
 {
     pg_status status = PG_OK;
@@ -272,10 +273,10 @@ done:
 }
 
 /* ---- vertices ------------------------------------------------------------------------------------------ */
-/* Place i of a line, a loop going round. */
+/* Point i of a line, cyclic. */
 static const double *at (const pg_front *l, size_t i) { return l->x + 3 * (i % l->n); }
 
-/* Does the line turn sharply at place i? Ends of lines count. */
+/* Returns 1: the line has a corner or an end at point i. */
 static int is_corner (const pg_front *l, size_t i)
 {
     double u[3], v[3];
@@ -297,13 +298,13 @@ static pg_status put_vertex (pg_front *f, const pg_front *l, size_t i, double sh
     return put (f, x, normal, (1 - share) * l->offset[i % l->n] + share * l->offset[(i + 1) % l->n]);
 }
 
-/* Vertices of the places from .. to of a line, about a local spacing apart, the last left out; parts: their
- * number is a multiple of this. */
+/* Adds vertices between points `from` and `to` of a line, about a local spacing apart, without the last;
+ * their number is a multiple of `parts`. */
 static pg_status divide (pg_front *f, const pg_front *l, const pg_ground *p, size_t from, size_t to,
                          size_t parts)
 {
     pg_status status = PG_OK;
-    double total = 0, *way = NULL;                     /* spacings from the beginning */
+    double total = 0, *way = NULL;                     /* length from the start, in spacings */
     PG_ALLOC (way, to - from + 1);
     for (size_t i = from; i < to; i++) {
         double middle[3];
@@ -324,7 +325,7 @@ done:
     return status;
 }
 
-/* Unit vectors ahead: across the line through the neighbours, in the plane of the crack. */
+/* Computes the unit vectors ahead: normal to the line and in the plane of the crack. */
 static void frame (pg_front *f)
 {
     for (size_t i = 0; i < f->n; i++) {
@@ -333,7 +334,7 @@ static void frame (pg_front *f)
         double t[3], u[3], v[3], *n = f->normal + 3*i, *e = f->ahead + 3*i;
         for (size_t k = 0; k < 3; k++)
             u[k] = f->x[3*i + k] - f->x[3*low + k], v[k] = f->x[3*high + k] - f->x[3*i + k];
-        pg_unit3 (u), pg_unit3 (v);                    /* at corners: half the turn */
+        pg_unit3 (u), pg_unit3 (v);                    /* at corners: the bisector */
         for (int k = 0; k < 3; k++) t[k] = u[k] + v[k];
         pg_cross3 (n, t, e);
         pg_unit3 (e);
