@@ -98,7 +98,7 @@ void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, d
  * without pressures that swing from piece to piece (the pairs then satisfy the condition of Ladyzhenskaya,
  * Babuska and Brezzi; one pair per spacing does not). Lengths in local spacings. */
 #define PG_CONTACT_PIECE  2.0                          /* mean length of a piece */
-/* path length above which a path is divided in two where cracks meet */
+/* path length above which end pieces are half as long where cracks meet */
 #define PG_CONTACT_HALVED 1.0
 #define PG_CONTACT_POINTS PG_CRACK_POINTS              /* points per spacing that sample the gap */
 #define PG_CONTACT_POINTS_SPACE 4                      /* 3D: sampling points per spacing, each way */

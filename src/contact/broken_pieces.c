@@ -1,40 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Faces that bonds leave which broke one by one, in pieces (forces by bonds). No crack is known there: place,
- * direction and area of the faces follow from the dead bonds alone.
+ * Crack faces formed by bonds that broke one by one, in pieces (forces without shape functions). There is no
+ * geometric crack: position, direction and area of the faces follow from the broken bonds alone.
  *
  * Area and normal. Of the bonds of a whole body with points of volume V as many with the vector xi cross an
  * area A of a plane with normal n as xi.n A / V, so that over all that cross it
  *
  *     sum phi xi = 1/(2 V^2) M A n,    M = sum over a family of V phi xi xi',
  *
- * whatever the lattice, the horizon and the direction: each dead bond adds 2 V_i V_j M^-1 phi xi to the area
- * vector A n of the faces it crossed (phi = 1 / |xi|), and 2 V_i V_j phi xi.n / n.M n to their area. Where
- * some of the bonds live the area is the share that is lost.
+ * whatever the lattice, the horizon and the direction: each broken bond adds 2 V_i V_j M^-1 phi xi to the
+ * area vector A n of the faces it crossed (phi = 1 / |xi|), and 2 V_i V_j phi xi.n / n.M n to their area.
+ * Where some of the bonds are intact the area is the fraction that is lost.
  *
- * Place and side. About each point the tensor of the directions of dead bonds near by, sum xi xi' / xi.xi,
- * has the normal as its first principal axis (of bonds that cross a plane the part along its normal is twice
- * that across), and the mean of their middles lies on the faces. The sense of normals is handed on from point
- * to point along dead bonds; bonds that hang together are a path. The middle of a bond, projected on the
+ * Position and side. About each point the tensor of the directions of nearby broken bonds, sum xi xi' /
+ * xi.xi, has the normal as its first principal axis (of bonds that cross a plane the part along its normal is
+ * twice that across), and the mean of their middles lies on the faces. The sense of normals is propagated
+ * from point to point along broken bonds; connected bonds form a path. The middle of a bond, projected on the
  * faces, is a point of them with the area of the bond, and points are gathered to pieces of about two
- * spacings (gather_dots.c). The normal of a piece is that of the area vector in a window about it that comes
- * and goes gently: of pieces on a straight row of steps it is the same.
+ * spacings (gather_dots.c). The normal of a piece is that of the area vector in a smooth window about it, so
+ * that pieces along a straight staircase of broken bonds have equal normals.
  *
- * Bonds of points that have lost most of theirs do not count: rubble has no faces. */
+ * Bonds of points that have lost most of their bonds (rubble) are ignored. */
 #include "pieces.h"
 #include "perigal/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Points count that keep so many of their bonds; cosine of the angle between normals that belong to one face;
- * half the window about a piece in which its normal is found, local spacings. */
+/* Least fraction of intact bonds of points that are no rubble; cosine of the angle between normals of one
+ * face; half width of the window for the normal of a piece, local spacings. */
 static const double KEEPS = 0.2, ALIKE = 0.7, WINDOW = 6;
 
-/* A dead bond: its entry in the list of all bonds; its points, in the list of points; from the one to the
- * other, m; its part of the area vector, in its own sense, m^2. */
+/* A broken bond: index in the list of all bonds; indices of its points in `place`; bond vector, m; its part
+ * of the area vector, in the sense of xi, m^2. */
 typedef struct { size_t bond, end[2]; double xi[3], part[3]; } broken;
-/* A point with dead bonds. tensor: of its own bonds (9), then of those about it; mean: sum of weighted
- * middles (3) and of weights; normal: axis, with its sense once that is known; moment: M of its whole
+/* A point with broken bonds. tensor: direction tensor of its bonds (in `about`: of nearby bonds, too); mean:
+ * sum of weighted bond middles (3) and of weights; normal: unit, oriented by walk; moment: M of its
  * family. */
 typedef struct { size_t node; double tensor[9], mean[4], normal[3], moment[9]; int seen; } place;
 typedef struct {
@@ -43,15 +43,15 @@ typedef struct {
     const pg_family *family;
     size_t dim;
     unsigned char *bears;                              /* 1: the point keeps enough bonds */
-    size_t *at;                                        /* 1 + where a point stands in `place`; 0: nowhere */
+    size_t *at;                                        /* 1 + index of each node in `place`; 0: not in it */
     broken *broken;  size_t n, cap;
-    place *place, *about;  size_t nplace, cap_place;   /* about: tensors and means of what is near */
-    size_t *start, *of;                                /* bonds of each place */
-    size_t *order;                                     /* bonds in the order of the dots */
+    place *place, *about;  size_t nplace, cap_place;   /* about: smoothed over neighbours */
+    size_t *start, *of;                                /* broken bonds of each place: of[start[i]] ... */
+    size_t *order;                                     /* broken bond of each dot */
     dot *dot;  size_t ndot;
 } faces;
 
-/* ---- dead bonds ---------------------------------------------------------------------------------------- */
+/* ---- broken bonds -------------------------------------------------------------------------------------- */
 static void find_rubble (faces *w)
 {
     for (size_t i = 0; i < w->p->cloud.n; i++) {
@@ -76,7 +76,7 @@ done:
     return status;
 }
 
-/* Lists dead bonds that no crack of the state cuts, between points that are no rubble; each pair once. */
+/* Lists broken bonds that no crack of the state cuts, between points that are no rubble; each pair once. */
 static pg_status list_broken (faces *w, const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
@@ -103,7 +103,7 @@ done:
     return status;
 }
 
-/* Bonds of each place. */
+/* Lists the broken bonds of each place. */
 static pg_status list_by_place (faces *w)
 {
     pg_status status = PG_OK;
@@ -117,14 +117,14 @@ done:
     return status;
 }
 
-/* ---- where the faces are ------------------------------------------------------------------------------- */
+/* ---- positions of faces -------------------------------------------------------------------------------- */
 static void add_square (size_t dim, double weight, const double *xi, double *out)
 {
     for (size_t a = 0; a < dim; a++)
         for (size_t c = 0; c < dim; c++) out[a * dim + c] += weight * xi[a] * xi[c];
 }
 
-/* What the dead bonds of a point, and all bonds of it, amount to. */
+/* Computes the direction tensor and mean of the broken bonds of a point, and M of its whole family. */
 static void measure_place (const faces *w, size_t i)
 {
     place *l = &w->place[i];
@@ -145,7 +145,8 @@ static void measure_place (const faces *w, size_t i)
     }
 }
 
-/* Sums over the points that a point sees, the less the further away they are. */
+/* Smooths tensor and mean of a point over its neighbours, with weights that decrease with distance; finds its
+ * normal. */
 static void smooth_place (const faces *w, size_t i)
 {
     place *out = &w->about[i];
@@ -167,21 +168,21 @@ static void smooth_place (const faces *w, size_t i)
     for (size_t k = 0; k < w->dim; k++) out->normal[k] = V[k * w->dim];
 }
 
-/* Mean of M of the families of both ends. */
+/* Mean of the moments M of both ends of a bond. */
 static void mean_moment (const faces *w, const broken *b, double *M)
 {
     const place *i = &w->place[b->end[0]], *j = &w->place[b->end[1]];
     for (size_t k = 0; k < w->dim * w->dim; k++) M[k] = 0.5 * (i->moment[k] + j->moment[k]);
 }
 
-/* 2 V_i V_j phi */
+/* Weight 2 V_i V_j phi of a broken bond. */
 static double weight_of (const faces *w, const broken *b)
 {
     const double *volume = w->p->cloud.volume;
     return 2 * volume[w->place[b->end[0]].node] * volume[w->place[b->end[1]].node] / pg_size (3, b->xi);
 }
 
-/* The area that a bond crosses of faces with normal n, m^2. */
+/* Area of faces with normal n that a broken bond crosses, m^2. */
 static double area_of (const faces *w, const broken *b, const double *n)
 {
     double M[9], stiff = 0;
@@ -190,7 +191,8 @@ static double area_of (const faces *w, const broken *b, const double *n)
     return stiff > 0 ? weight_of (w, b) * fabs (pg_dot3 (b->xi, n)) / stiff : 0;
 }
 
-/* The part of the area of a bond, its place, and its normal in the sense of that of its first end. */
+/* Computes the dot of a broken bond: area, position on the faces, and normal in the sense of that of its
+ * first end. */
 static void measure_bond (const faces *w, broken *b, dot *d)
 {
     const place *i = &w->about[b->end[0]], *j = &w->about[b->end[1]];
@@ -208,7 +210,7 @@ static void measure_bond (const faces *w, broken *b, dot *d)
     for (size_t k = 0; k < w->dim; k++) d->x[k] -= off * d->normal[k];
     d->h = pg_problem_spacing (w->p, PG_NODES, i->node);
     mean_moment (w, b, M);
-    if (pg_dense_cholesky ((int) w->dim, M, 0)) return;        /* a family on a line knows no area */
+    if (pg_dense_cholesky ((int) w->dim, M, 0)) return;        /* neighbours on a line determine no area */
     for (size_t k = 0; k < w->dim; k++) b->part[k] = weight_of (w, b) * b->xi[k];
     pg_dense_solve ((int) w->dim, M, b->part);
     d->area = area_of (w, b, d->normal);
@@ -216,7 +218,8 @@ static void measure_bond (const faces *w, broken *b, dot *d)
 }
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */
-/* All dead bonds that hang together with those of place `from`, as dots; the sense of normals goes on. */
+/* Makes dots of all broken bonds connected with those of place `from`, and orients their normals
+ * consistently. */
 static pg_status walk (faces *w, size_t from)
 {
     pg_status status = PG_OK;
@@ -246,7 +249,7 @@ done:
     return status;
 }
 
-/* Normal of a piece from the area vector in a window about it. */
+/* Computes the normal of a piece from the area vector in a window about it. */
 static void find_normal (const faces *w, size_t first, pg_contact_piece *piece)
 {
     double sum[3] = { 0 }, h = pg_problem_spacing_at (w->p, piece->x), size;
@@ -264,7 +267,7 @@ static void find_normal (const faces *w, size_t first, pg_contact_piece *piece)
     for (int k = 0; k < 3 && size > 0; k++) piece->normal[k] = sum[k] / size;
 }
 
-/* The dots from `first` on, which belong to pieces 0 to count - 1, as pieces of one path. */
+/* Appends the dots from `first` on, which belong to pieces 0 to count - 1, as pieces of one path. */
 static pg_status put_pieces (const faces *w, size_t first, size_t count, size_t path, pg_contact_pieces *out)
 {
     pg_status status = PG_OK;
@@ -297,7 +300,7 @@ static pg_status put_pieces (const faces *w, size_t first, size_t count, size_t 
             if (w->dot[i].piece == k) piece->area += area_of (w, &w->broken[w->order[i]], piece->normal);
         if (dim == 3) piece_tangents (piece->normal, NULL, piece->tangent[0]);
         else piece->tangent[0][0] = piece->normal[1], piece->tangent[0][1] = -piece->normal[0];
-        /* as long as a whole one also where few of its bonds are dead */
+        /* at least the length of a whole piece, even if few of its bonds are broken */
         piece->length = fmax (PG_CONTACT_PIECE * usual,
                               dim == 3 ? sqrt (piece->area) : piece->area / w->p->cloud.thickness);
         piece->path = path;
@@ -312,7 +315,7 @@ done:
     return status;
 }
 
-/* Path by path. */
+/* Divides the faces into pieces, path by path. */
 static pg_status divide (faces *w, pg_contact_pieces *out)
 {
     pg_status status = PG_OK;

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The problem of complementarity of contact with friction (perigal/contact.h), in forces and gaps of a few
- * to a few hundred pairs, with a dense symmetric compliance C.
+ * Solver of the complementarity problem of contact with friction (perigal/contact.h), in forces and gaps of a
+ * few to a few hundred pairs, with a dense symmetric compliance C.
  *
  * Relaxation (projected Gauss-Seidel; Jourdan, Alart and Jean 1998): one pair after the other takes the
  * forces that its own conditions ask for while all others stay,
  *     f_n = max (0, f_n - g_n / C_nn),    f_t = f_t - (g_t - slip) / C_tt, cut at +-(mu f_n + c).
- * Without friction it converges for every positive definite C; with it wherever mu is not too large. It is
- * slow to the last digit, but soon knows which pairs are open, stick or slide. Given that, all conditions are
- * equations (active set): open f = 0; stick g_n = 0, g_t = slip; sliding g_n = 0, f_t = -s (mu f_n + c), s
- * the direction of slip. Their solution is exact; pairs whose inequalities it violates change their status,
- * and the equations are solved again. A status that does not settle goes back to relaxation with more
- * sweeps.
+ * Without friction it converges for every positive definite C; with it wherever mu is not too large. It
+ * converges slowly, but soon finds which pairs are open, stick or slide. With these statuses all conditions
+ * are equations (active set): open f = 0; stick g_n = 0, g_t = slip; sliding g_n = 0, f_t = -s (mu f_n + c),
+ * s the direction of slip. Their solution is exact; pairs whose inequalities it violates change their status,
+ * and the equations are solved again. A status that does not settle goes back to relaxation with more sweeps.
  *
- * In space a pair has two tangents, f_t is cut to the circle of radius mu f_n + c with a step of one over the
+ * In 3D a pair has two tangents, f_t is cut to the circle of radius mu f_n + c with a step of one over the
  * larger C_tt, and the direction of slip is an unknown: sliding pairs fulfil
  *     f_t = (mu f_n + c) r / |r|,    r = f_t - (g_t - slip) / C_tt
  * (Alart and Curnier 1991), whose tangent is solved again with the other equations until nothing changes:
@@ -22,21 +21,21 @@
 #include <math.h>
 #include <string.h>
 
-/* Rounds of relaxation and active set, passes of the latter in each, sweeps of the first round (each later
- * one takes ROUND_GROWTH times as many). */
+/* Maximum rounds of relaxation and active set; passes of the active set per round; relaxation sweeps of the
+ * first round (ROUND_GROWTH times more in each later one). */
 enum { ROUNDS = 5, PASSES = 30, SWEEPS = 60, ROUND_GROWTH = 8 };
-/* A violation that counts; one that is accepted where the active set does not settle (a pair on the border of
- * two states, which rounding throws to and fro); the change of a sweep that ends relaxation. */
+/* Relative tolerances: violation that changes a status; violation accepted if the active set does not settle
+ * (a pair alternating by rounding); change of a sweep at which relaxation ends. */
 static const double COUNTS = 1e-11, ACCEPTED = 1e-9, STILL = 1e-6;
-/* What Newton's method leaves of the direction of slip, over the largest gap: as good as rounding. */
+/* Tolerance of Newton's method for the slip law, over the largest gap: rounding. */
 static const double TURNED = 1e-13;
 
-/* Scratch of one solve. */
+/* Workspace of one solve. */
 typedef struct {
     const pg_contact_problem *p;
     pg_contact_solution *out;
     double  scale;                                     /* the largest gap or slip without contact, m */
-    double *A, *b;                                     /* the equations of a status: a row for each force */
+    double *A, *b;                                     /* equations of the active set, a row per force */
 } contact_work;
 
 static size_t rows_of (const pg_contact_problem *p) { return p->dim * p->n; }
@@ -46,23 +45,23 @@ static double friction (const pg_contact_problem *p, size_t k)
     return p->coefficient ? p->coefficient[k] : 0;
 }
 static double cohesion (const pg_contact_problem *p, size_t k) { return p->cohesion ? p->cohesion[k] : 0; }
-/* Along tangent a (0, 1). */
+/* Previous slip of pair k along tangent a (0, 1), m. */
 static double slip_before (const pg_contact_problem *p, size_t k, size_t a)
 {
     return p->slip ? p->slip[k * (p->dim - 1) + a] : 0;
 }
-/* What pair k bears along the surface, N. */
+/* Limit of |f_t| of pair k at a normal force (N), N. */
 static double limit (const pg_contact_problem *p, size_t k, double normal)
 {
     return normal > 0 ? friction (p, k) * normal + cohesion (p, k) : 0;
 }
-/* Direction of slip: 1, -1; 0: none. */
+/* Sign of the slip of a status: 1, -1; 0: none. */
 static double direction (unsigned char status)
 {
     return status == PG_CONTACT_FORWARD ? 1 : status == PG_CONTACT_BACKWARD ? -1 : 0;
 }
 
-/* g = g0 + C f, afresh. */
+/* Computes the gaps g = g0 + C f. */
 static void find_gaps (contact_work *w)
 {
     const pg_contact_problem *p = w->p;
@@ -74,7 +73,7 @@ static void find_gaps (contact_work *w)
     }
 }
 
-/* Of a pair of two tangents: r = f_t - (g_t - slip) / C_tt; its length. */
+/* Pair with two tangents (3D): computes r = f_t - (g_t - slip) / C_tt, N; returns |r|. */
 static double sliding_trial (const contact_work *w, size_t k, double r[2])
 {
     const pg_contact_problem *p = w->p;
@@ -85,7 +84,7 @@ static double sliding_trial (const contact_work *w, size_t k, double r[2])
     return hypot (r[0], r[1]);
 }
 
-/* One force changes by df: all gaps follow. Returns the change of its own gap. */
+/* Changes one force by df (N) and updates all gaps; returns the change of its own gap, m. */
 static double push (contact_work *w, size_t row, double df)
 {
     size_t rows = rows_of (w->p);
@@ -95,7 +94,7 @@ static double push (contact_work *w, size_t row, double df)
     return fabs (df) * column[row];
 }
 
-/* The shear forces of a pair of two tangents, cut to the circle that its normal force allows. */
+/* Relaxes the shear forces of a pair with two tangents, cut to the friction circle; returns the change, m. */
 static double push_round (contact_work *w, size_t k)
 {
     double r[2], size, most = limit (w->p, k, w->out->force[3*k]);
@@ -107,7 +106,7 @@ static double push_round (contact_work *w, size_t k)
     return moved;
 }
 
-/* One sweep over all pairs; the largest change of a gap. */
+/* One relaxation sweep over all pairs; returns the largest change of a gap, m. */
 static double sweep (contact_work *w)
 {
     const pg_contact_problem *p = w->p;
@@ -137,7 +136,7 @@ static void relax (contact_work *w, size_t sweeps)
     }
 }
 
-/* How the pairs stand by the forces that relaxation left. */
+/* Sets the status of all pairs by the forces from relaxation. */
 static void read_status (contact_work *w)
 {
     const pg_contact_problem *p = w->p;
@@ -155,7 +154,7 @@ static void read_status (contact_work *w)
     }
 }
 
-/* Row i of the equations: g_i = goal. */
+/* Sets row i of the equations: g_i = goal (m). */
 static void set_gap (contact_work *w, size_t i, double goal)
 {
     size_t rows = rows_of (w->p);
@@ -163,7 +162,7 @@ static void set_gap (contact_work *w, size_t i, double goal)
     w->b[i] = goal - w->p->gap[i];
 }
 
-/* Row i: f_i + share f_(i - 1) = goal, times C_ii, so that all rows are lengths. */
+/* Sets row i: f_i + share f_(i - 1) = goal (N), times C_ii, so that all rows are lengths. */
 static void set_force (contact_work *w, size_t i, double share, double goal)
 {
     size_t rows = rows_of (w->p);
@@ -173,8 +172,8 @@ static void set_force (contact_work *w, size_t i, double share, double goal)
     w->b[i] = goal * diagonal (w->p, i);
 }
 
-/* The two rows of a pair that slides in space: with the direction e = r / |r| and P = 1 - e e' at the forces
- * at hand,  f_t - e mu f_n - q P r (f) = e c,  q = (mu f_n + c) / |r|, r linear in f. */
+/* Sets the two tangential rows of a sliding pair in 3D: with e = r / |r| and P = 1 - e e' at the current
+ * forces, f_t - e mu f_n - q P r (f) = e c, q = (mu f_n + c) / |r|, r linear in f. */
 static void set_slip (contact_work *w, size_t k)
 {
     const pg_contact_problem *p = w->p;
@@ -197,7 +196,7 @@ static void set_slip (contact_work *w, size_t k)
     }
 }
 
-/* Forces and gaps of the pairs as they stand. */
+/* Solves for forces and gaps of the current statuses. */
 static pg_status solve_status (contact_work *w)
 {
     pg_status status = PG_OK;
@@ -221,8 +220,7 @@ done:
     return status;
 }
 
-/* The status that a pair with one tangent should have by the solution at hand, once closed; tiny: violations
- * up to here do not count, m. */
+/* Status that a closed pair with one tangent (2D) should have by the current solution; tiny: tolerance, m. */
 static unsigned char better_line (const contact_work *w, size_t k, double tiny)
 {
     const pg_contact_problem *p = w->p;
@@ -234,11 +232,12 @@ static unsigned char better_line (const contact_work *w, size_t k, double tiny)
         return shear < 0 ? PG_CONTACT_FORWARD : PG_CONTACT_BACKWARD;
     }
     if (friction (p, k) > 0 || cohesion (p, k) > 0) return s * slip < -tiny ? PG_CONTACT_STICK : now;
-    /* without friction the direction is told, and nothing else depends on it */
+    /* without friction the direction is only reported */
     return slip < -tiny ? PG_CONTACT_BACKWARD : slip > tiny ? PG_CONTACT_FORWARD : now;
 }
 
-/* The status that a closed pair with two tangents should have; *left grows to what its slip law leaves, m. */
+/* Status that a closed pair with two tangents (3D) should have; *left: maximum residual of the slip law, m,
+ * updated. */
 static unsigned char better_plane (const contact_work *w, size_t k, double tiny, double *left)
 {
     const pg_contact_problem *p = w->p;
@@ -253,7 +252,7 @@ static unsigned char better_plane (const contact_work *w, size_t k, double tiny,
     return PG_CONTACT_SLIDING;
 }
 
-/* The status that pair k should have. */
+/* Status that pair k should have by the current solution. */
 static unsigned char better (const contact_work *w, size_t k, double tiny, double *left)
 {
     const pg_contact_problem *p = w->p;
@@ -268,8 +267,8 @@ static unsigned char better (const contact_work *w, size_t k, double tiny, doubl
     return p->dim == 3 ? better_plane (w, k, tiny, left) : better_line (w, k, tiny);
 }
 
-/* Passes of the active set until no pair changes and no direction of slip turns. 1: it has settled; 0: not,
- * or the equations of a status were singular. */
+/* Passes of the active set until no pair changes its status and no slip its direction. *settled 1: converged;
+ * 0: not, or singular equations. */
 static pg_status polish (contact_work *w, int *settled)
 {
     pg_status status = PG_OK;
@@ -287,7 +286,7 @@ static pg_status polish (contact_work *w, int *settled)
             if (next != w->out->status[k]) *settled = 0;
             w->out->status[k] = next;
         }
-        /* no smaller than before, and next to nothing: rounding */
+        /* a small residual that no longer decreases is rounding */
         if (left > TURNED * w->scale && (left > COUNTS * w->scale || left < 0.5 * before)) *settled = 0;
         before = left;
     }
@@ -295,8 +294,8 @@ done:
     return status;
 }
 
-/* Of the law of slip of one pair with two tangents, m: more shear than it bears; and the lesser of the slip
- * and the difference of its shear from the one that opposes that slip. */
+/* Violation of the slip law of a pair with two tangents, m: shear force above its limit; or the lesser of the
+ * slip and the deviation of the shear force from the one that opposes it. */
 static double slip_violation (const pg_contact_problem *p, const pg_contact_solution *s, size_t k)
 {
     size_t i = 3*k + 1;
@@ -309,17 +308,17 @@ static double slip_violation (const pg_contact_problem *p, const pg_contact_solu
     return most > 0 ? fmax (worst, fmin (slip, hypot (off[0], off[1]) * scale)) : worst;
 }
 
-/* Of one pair, m. Conditions that its status fulfils by construction are measured like the others. */
+/* Largest violation of the conditions of one pair, m, whatever its status. */
 static double violation_of (const pg_contact_problem *p, const pg_contact_solution *s, size_t k)
 {
     size_t i = p->dim * k;
     double normal = s->force[i], shear = s->force[i + 1], gap = s->gap[i],
            slip = s->gap[i + 1] - slip_before (p, k, 0), most = limit (p, k, normal),
            ct = diagonal (p, i + 1), worst = fmax (-gap, -normal * diagonal (p, i));
-    worst = fmax (worst, fmin (gap, normal * diagonal (p, i)));        /* together, or no force */
+    worst = fmax (worst, fmin (gap, normal * diagonal (p, i)));        /* a force only if closed */
     if (p->dim == 3) return fmax (worst, slip_violation (p, s, k));
     worst = fmax (worst, (fabs (shear) - most) * ct);
-    /* a slip against the shear force that is at its limit, none inside it; one of the two is zero */
+    /* slip only with the opposing shear force at its limit: one of both is zero */
     if (most > 0) {
         double room = fmax (0, most - (slip > 0 ? -shear : shear)) * ct;
         worst = fmax (worst, fmin (room, fabs (slip)));
@@ -347,7 +346,7 @@ double pg_contact_violation (const pg_contact_problem *p, const pg_contact_solut
     return worst > 0 ? worst / scale : isnan (worst) ? NAN : 0;
 }
 
-/* Is it a problem at all? The gaps without contact may all be zero. */
+/* Checks the data of the problem; sets the scale. */
 static pg_status look_at (contact_work *w)
 {
     pg_status status = PG_OK;
@@ -368,7 +367,7 @@ done:
     return status;
 }
 
-/* Pairs of each kind; forces of what is open are zero, not rounding. */
+/* Counts the pairs of each status; sets forces of open pairs to exactly zero. */
 static void count (contact_work *w)
 {
     pg_contact_solution *o = w->out;
@@ -394,7 +393,7 @@ pg_status pg_contact_solve (pg_contact_solution *out, const pg_contact_problem *
     PG_ALLOC (w.b, rows);
     memset (out->force, 0, rows * sizeof *out->force);
     for (int round = 0; round < ROUNDS && !settled; round++, sweeps *= ROUND_GROWTH) {
-        /* what an active set that went in circles left is no better than nothing */
+        /* restarts from zero after an active set that did not converge */
         if (round > 0) memset (out->force, 0, rows * sizeof *out->force);
         relax (&w, sweeps);
         read_status (&w);

@@ -1,30 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Contact along a path of loads (perigal/contact.h): where the gaps without contact are straight lines of s,
- * so are forces and gaps as long as no pair changes its status, and the next change is found by a ratio test.
+ * Contact along a path of loads (perigal/contact.h): if the gaps without contact are linear in s, so are
+ * forces and gaps as long as no pair changes its status, and the next change is found by a ratio test.
  *
- * In the rate form, at s, what every pair may do next is known: open pairs are free, pairs inside the cone of
- * friction are held, those on its edge stick or slide, those that just touch open, stick or slide. The rates
- * f', g' of all pairs are a problem of complementarity themselves, g' = rate + C f',
+ * In the rate form the possible rates of every pair at s are known: open pairs are free, pairs inside the
+ * friction cone are fixed, those on its edge stick or slide, those that just touch open, stick or slide. The
+ * rates f', g' solve a complementarity problem themselves, g' = rate + C f',
  *     held: g' = 0;   touch: g_n' >= 0, f_n' >= 0, f_n' g_n' = 0;
  *     edge (slip towards s): g_n' = 0; g_t' = 0, - s f_t' <= mu f_n', or f_t' = - s mu f_n', s g_t' >= 0,
- * which passes of an active set solve, and projected Gauss-Seidel where these go in circles. A slip that
- * turns round sticks at once, as its pair is on the edge.
+ * which is solved by an active set, and by projected Gauss-Seidel if that cycles. A slip whose direction
+ * would reverse sticks at once, as its pair is on the edge.
  *
- * In space the cone is round, and forces on its edge are no straight lines: without friction and cohesion
- * alone is all this true there, of the normals. */
+ * In 3D the cone is round, and forces on its edge are not linear in s: there all this holds only without
+ * friction and cohesion, for the normals. */
 #include "perigal/contact.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Passes in which all pairs may change, and one at a time; sweeps of the rescue. */
+/* Active set passes in which all wrong pairs change, and passes with one change each; maximum sweeps of
+ * Gauss-Seidel; bound of status changes per pair. */
 enum { PASSES = 12, SINGLES = 60, SWEEPS = 20000, MOST_CHANGES = 1000 };
-/* What counts, of gaps and of their rates; the change of a sweep that ends it; a shear force that an opening
- * pair may lose without a leap (leaps of pairs that hardly open follow each other closely). */
+/* Relative tolerances: gaps and their rates; change of a sweep at convergence; shear force that an opening
+ * pair may lose without a jump of the state (avoids sequences of tiny jumps). */
 static const double COUNTS = 1e-12, STILL = 1e-11, LOST = 1e-10;
 
-/* What the shear force of a closed pair may do: nothing, there is no friction; hold the slip; it is on the
- * edge of the cone; at its apex, where no direction is known yet. */
+/* State of the shear force of a closed pair: no friction; inside the friction cone (slip fixed); on its edge;
+ * at its apex, where the direction of slip is not yet known. */
 typedef enum { SMOOTH, INSIDE, EDGE, APEX } shear_freedom;
 /* Normal state of a contact pair: open; pressing; just touching. */
 typedef enum { APART, PRESSED, TOUCHING } normal_freedom;
@@ -32,11 +33,10 @@ typedef enum { APART, PRESSED, TOUCHING } normal_freedom;
 typedef struct {
     const pg_contact_path *p;
     pg_contact_track *m;
-    /* direction along the path, 1 or -1; a length that counts as 0, m; a rate that counts as 0, m per unit
-     * of s */
+    /* direction along the path, 1 or -1; tolerance of lengths, m; tolerance of rates, m per unit of s */
     double sense, tiny, slow;
-    double *A, *b, *df, *dg;                           /* equations; rates along the sense (2 n) */
-    unsigned char *normal, *shear;                     /* freedoms (n) */
+    double *A, *b, *df, *dg;                           /* equations; rates of f and g along `sense` (dim n) */
+    unsigned char *normal, *shear;                     /* normal_freedom, shear_freedom of each pair (n) */
 } track_work;
 
 static size_t rows_of (const pg_contact_path *p) { return p->dim * p->n; }
@@ -61,7 +61,7 @@ static unsigned char sliding (const pg_contact_path *p, double direction)
     return p->dim == 3 ? PG_CONTACT_SLIDING : direction > 0 ? PG_CONTACT_FORWARD : PG_CONTACT_BACKWARD;
 }
 
-/* What pair k bears along the surface, less what it bears, as a length. */
+/* Reserve of shear force of pair k, limit - |f_t|, times C_tt, m. */
 static double room (const track_work *w, size_t k)
 {
     const size_t d = w->p->dim;
@@ -69,7 +69,7 @@ static double room (const track_work *w, size_t k)
     return (friction (w->p, k) * f[0] + cohesion (w->p, k) - fabs (f[1])) * diagonal (w->p, d*k + 1);
 }
 
-/* g = gap + s rate + C f */
+/* Computes the gaps g = gap + s rate + C f. */
 static void find_gaps (const pg_contact_path *p, pg_contact_track *m)
 {
     size_t rows = rows_of (p);
@@ -100,7 +100,7 @@ static void look_at_freedom (track_work *w)
     }
 }
 
-/* Where a pair on the edge would slide: against its force. */
+/* Direction in which a pair on the edge of the cone would slide: against its shear force. */
 static double edge_direction (const track_work *w, size_t k)
 {
     const size_t d = w->p->dim;
@@ -108,7 +108,7 @@ static double edge_direction (const track_work *w, size_t k)
     return now != 0 ? now : w->m->force[d*k + 1] < 0 ? 1 : -1;
 }
 
-/* The status with which the search begins: what is due changes. */
+/* Initial statuses of the search: those of due pairs change. */
 static void change_due (track_work *w)
 {
     const size_t d = w->p->dim;
@@ -123,7 +123,7 @@ static void change_due (track_work *w)
     }
 }
 
-/* Rates that the status of all pairs asks for. */
+/* Solves for the rates of forces and gaps with the current statuses. */
 static pg_status solve_rates (track_work *w)
 {
     const size_t d = w->p->dim;
@@ -153,7 +153,8 @@ done:
     return status;
 }
 
-/* The status that pair k should have by the rates at hand; *wrong: by how much the present one is wrong. */
+/* Status that pair k should have by the current rates; *wrong: violation by its present status, m per unit of
+ * s. */
 static unsigned char better (const track_work *w, size_t k, double *wrong)
 {
     const size_t d = w->p->dim;
@@ -173,7 +174,7 @@ static unsigned char better (const track_work *w, size_t k, double *wrong)
     return (*wrong = (-to * ft - mu * fn) * ct) > w->slow ? sliding (w->p, to) : now;
 }
 
-/* 1: the rates at hand belong to their status. all: every wrong pair changes, else the worst alone. */
+/* Corrects statuses: all = 1: of every wrong pair, 0: of the worst only. Returns 1: none was wrong. */
 static int improve (track_work *w, int all)
 {
     size_t worst = 0, count = 0;
@@ -189,7 +190,7 @@ static int improve (track_work *w, int all)
     return count == 0;
 }
 
-/* One rate of force changes: all rates of gaps follow. */
+/* Sets one rate of force and updates all rates of gaps; returns the change of its own rate. */
 static double push (track_work *w, size_t row, double to)
 {
     size_t rows = rows_of (w->p);
@@ -214,7 +215,7 @@ static double sweep_pair (track_work *w, size_t k)
     return fmax (most, push (w, t, shear));
 }
 
-/* Rates by relaxation, and the status that they show. */
+/* Finds rates by projected Gauss-Seidel, and the statuses that follow from them. */
 static void relax (track_work *w)
 {
     const size_t d = w->p->dim;
@@ -237,7 +238,8 @@ static void relax (track_work *w)
     }
 }
 
-/* Status and rates of what goes on from here. *found 0: there is no such way, or it was not found. */
+/* Finds statuses and rates for the continuation from the current s. *found 0: none exists, or none was
+ * found. */
 static pg_status settle (track_work *w, int *found)
 {
     pg_status status = PG_OK;
@@ -258,7 +260,7 @@ done:
 }
 
 /* ---- stretches ----------------------------------------------------------------------------------------- */
-/* A quantity that may not fall below zero reaches it after this way; beyond `range`: never. */
+/* Distance along s after which a nonnegative quantity reaches zero; INFINITY: not within `range`. */
 static double way_to_zero (double value, double rate, double range, double tiny)
 {
     if (!(value + rate * range < -tiny)) return INFINITY;
@@ -287,7 +289,7 @@ static double way_of_pair (const track_work *w, size_t k, double range)
     return least;
 }
 
-/* Where the first pair changes, and which do. */
+/* Finds the end of the stretch, where the first pair changes its status, and the pairs due there. */
 static void find_end (track_work *w, double until)
 {
     pg_contact_track *m = w->m;
@@ -299,7 +301,8 @@ static void find_end (track_work *w, double until)
         m->due[k] = m->changes && way_of_pair (w, k, range) <= least * (1 + COUNTS);
 }
 
-/* Is pair k open with a shear force left? Only cohesion can cause that, and it is lost at once. */
+/* Returns 1: pair k has opened with a shear force left, which only cohesion can cause and which is lost at
+ * once. */
 static int drops (const track_work *w, size_t k)
 {
     const size_t d = w->p->dim;
@@ -313,7 +316,8 @@ static int any_drops (const track_work *w)
     return 0;
 }
 
-/* The solution at s, slips counting from `slip`; lost: pairs without their cohesion (n); NULL: none. */
+/* Solves the contact problem at s, slips counting from `slip`; lost: 1: the pair has no cohesion (n); NULL:
+ * none. */
 static pg_status solve_at (pg_contact_track *m, const pg_contact_path *p, double s, const double *slip,
                            const unsigned char *lost)
 {
@@ -339,8 +343,8 @@ pg_status pg_contact_begin (pg_contact_track *m, const pg_contact_path *p, doubl
     return solve_at (m, p, s, slip, NULL);
 }
 
-/* The state at hand leaps to an equilibrium in which no slip of now is lost. What closes again has its
- * cohesion again. */
+/* Jumps to a new equilibrium at the same s, without the cohesion of opened pairs and with present slips kept.
+ * Pairs that close again regain cohesion. */
 static pg_status leap (track_work *w)
 {
     pg_status status = PG_OK;

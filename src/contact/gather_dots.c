@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points of a surface gathered to pieces around as many centres as it has pieces: each next to begin with
- * where it is farthest from those there are, then where the middles of its points lie (Lloyd 1982). */
+ * Clusters points of a surface into pieces around centres: initial centres are chosen one by one, each
+ * farthest from those before, then moved to the centroids of their points (Lloyd 1982). */
 #include "pieces.h"
 #include <math.h>
 #include <string.h>
 
-/* Rounds of gathering; what a turn of normals counts, as a distance in spacings per rad. */
+/* Lloyd iterations; weight of an angle between normals, spacings per rad. */
 enum { ROUNDS = 12 };
 static const double TURN_COUNTS = 4;
 
-/* How far a dot is from a place of that normal, in local spacings, squared; a turn counts as a way. */
+/* Squared distance of a dot from x, in local spacings, including the weighted angle to `normal`. */
 static double away (const dot *d, const double *x, const double *normal)
 {
     double far = 0, turn = 0;
@@ -20,10 +20,11 @@ static double away (const dot *d, const double *x, const double *normal)
     return far / (d->h * d->h) + TURN_COUNTS * TURN_COUNTS * turn;
 }
 
-/* Of a centre: place (3), normal (3), area in local spacings. */
+/* Numbers of a centre: position (3, m), normal (3), area in local spacings. */
 enum { WIDE = 7 };
 
-/* The first centres: the first dot, then always the one farthest from all there are. far: of each dot. */
+/* Chooses the initial centres: the first dot, then always the dot farthest from all centres. far: distance of
+ * each dot to the nearest centre. */
 static void spread (const dot *d, size_t n, size_t count, double *centre, double *far)
 {
     size_t next = 0;
@@ -37,7 +38,7 @@ static void spread (const dot *d, size_t n, size_t count, double *centre, double
     }
 }
 
-/* Dots go to the nearest centre, then centres to the middle of their dots. */
+/* One iteration: assigns dots to the nearest centre, then moves centres to the centroids of their dots. */
 static void gather_round (dot *d, size_t n, size_t count, double *centre)
 {
     for (size_t i = 0; i < n; i++) {
@@ -59,7 +60,7 @@ static void gather_round (dot *d, size_t n, size_t count, double *centre)
     }
 }
 
-/* A centre that holds too little is taken away, and the others gather anew. */
+/* Iterates; centres whose pieces are too small are removed, and the iteration is repeated. */
 pg_status gather_dots (dot *d, size_t n, double full, size_t *count)
 {
     pg_status status = PG_OK;

@@ -34,7 +34,7 @@ static const pg_key keys[] = {
 };
 const pg_key_table pg_keys_contact = { "contact", keys, sizeof keys / sizeof *keys };
 
-/* What short-range forces alone know. */
+/* Reads the keys of short-range forces, and reports them as errors with other kinds of contact. */
 static void read_search (pg_contact_setting *out, const pg_scene *scene)
 {
     static const char *const own[3] = { "contact.distance", "contact.stiffness", "contact.enforcement" };

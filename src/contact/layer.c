@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rows of pieces of cracks by the bonds that crossed them (pg_force_type.faces). */
+ * Rows of contact pieces from the bonds that crossed them (surfaces.faces of the force). */
 #include "perigal/contact.h"
 
 pg_status pg_contact_layer (pg_sparse *out, double *soft, double *stiffer, const pg_contact_pieces *pieces,

@@ -1,40 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rigid platens in explicit steps (perigal/contact.h): leapfrog of their own, penalty on points.
+ * Rigid platens in explicit time integration (perigal/contact.h): leapfrog for the platens, penalty forces on
+ * points.
  *
- * Along each axis a platen goes as its displacement says, is held, or (with a mass) goes by its forces:
- * v(n+1/2) = v(n-1/2) + dt F_n / M, u_n+1 = u_n + dt v(n+1/2). What the points feel, the platen feels with
- * the other sign, to the last bit but for the rounding of the sum. */
+ * Along each axis a platen follows its prescribed displacement, is fixed, or (with a mass) moves by its
+ * forces: v(n+1/2) = v(n-1/2) + dt F_n / M, u_n+1 = u_n + dt v(n+1/2). The force on the platen is minus the
+ * sum of the forces on points, up to rounding of the sum. */
 #include "near_pairs.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { SUM_ENERGY, SUM_HELD, SUM_TAKEN, SUM_OVERLAP, SUM_RATE, SUM_STIFF, SUM_FORCE, SUMS = SUM_FORCE + 3 };
-static const double margin = 0.5;  /* spacings that points may come nearer before the next look at all */
+static const double margin = 0.5;  /* spacings by which points may approach before the next search */
 
-/* What goes with the motion of a platen: kept, saved, put back. */
+/* State of a moving platen: displacement, m, velocity, m/s, force on the body, external force, N. */
 typedef struct { double u[3], v[3], force[3], press[3]; } platen_state;
 typedef struct {
     platen_state now, start;
-    double  place[3];                                  /* u when its points were looked for, m */
-    size_t *point, n, cap;                             /* that may touch it before the next look */
-    double *reach;                                     /* of all points: where contact begins, m */
-    double *slip, *slip0;                              /* of all points (n x 3), with friction; else NULL */
-    double  stiff;                                     /* of the points that touch, N/m */
+    double  place[3];                                  /* u at the last search for points, m */
+    size_t *point, n, cap;                             /* points that may touch it before the next search */
+    double *reach;                                     /* distance at which contact begins, per point, m */
+    /* stretch of friction springs, now and at step start, m (n x 3); NULL: no friction */
+    double *slip, *slip0;
+    double  stiff;                                     /* total stiffness of the points in contact, N/m */
 } one_platen;
 
 struct pg_moving_platens {
     const pg_problem *problem;
     size_t  stride, dim, nplaten, touching;
     double  stiffness, finest;
-    double *stiff, *share;                             /* k of points, N/m; across over along */
-    double *start;                                     /* displacements at the last look, m */
-    double  way;                                       /* that points have moved since, at most, m */
-    double *force;                                     /* on the points, N (n x stride) */
+    double *stiff, *share;                             /* k of each point, N/m; shear over normal stiffness */
+    double *start;                                     /* displacements at the last search, m (n x stride) */
+    double  way;                                       /* bound of the motion of points since then, m */
+    double *force;                                     /* forces on the points, N (n x stride) */
     int     looked;
     one_platen *platen;
     double *sum;  size_t cap;
-    double  taken, taken0;                             /* by springs of friction, J */
+    double  taken, taken0;  /* work taken by friction springs, now and at step start, J */
     pg_moving_report now;
     double  work0;
 };
@@ -56,8 +58,8 @@ void pg_moving_platens_free (pg_moving_platens **platens)
 static double size_of (const pg_problem *p, size_t i) { return p->cloud.size
     ? p->cloud.size[i] : p->cloud.h; }
 
-/* Where contact with each point begins: half the contact distance from the platen, or where the point is at
- * the start. */
+/* Sets the distance at which contact with each point begins: half the contact distance, at most the initial
+ * distance. */
 static pg_status start_platen (pg_moving_platens *w, size_t k, double distance)
 {
     pg_status status = PG_OK;
@@ -136,13 +138,14 @@ static double load_at (const pg_problem *p, int load, int k, double t)
                : pg_load_value (&p->boundary.load[load], k, p->dim, anywhere, t);
 }
 
-/* 1: it goes by its forces along that axis. */
+/* Returns 1: the platen moves by its forces along axis k. */
 static int goes_freely (const pg_platen *own, const pg_problem *p, int k)
 {
     return own->mass > 0 && (own->motion < 0 || !p->boundary.load[own->motion].value[k]);
 }
 
-/* From the last instant to t; half of the work of forces on it and of its own on the body. */
+/* Moves platen i from t - dt to t, and adds the first half of the work of external forces and prescribed
+ * motion. */
 static void go (pg_moving_platens *w, size_t i, double t, double dt)
 {
     const pg_problem *p = w->problem;
@@ -154,14 +157,14 @@ static void go (pg_moving_platens *w, size_t i, double t, double dt)
         if (dt > 0 && free) s->u[k] += dt * s->v[k];
         else if (!free) s->u[k] = load_at (p, own->motion, k, t);
         if (dt > 0 && !free) s->v[k] = (s->u[k] - old) / dt;
-        /* s->force: of the platen on the body; s->press: on the platen from outside, where it is free */
+        /* s->force: force of the platen on the body; s->press: external force on a free platen */
         w->now.work += 0.5 * (free ? s->press[k] : s->force[k]) * (dt > 0 ? s->u[k] - old : 0);
         s->press[k] = free ? load_at (p, own->force, k, t) : 0;
     }
 }
 
-/* Second half of the work of forces on platen i over the last step dt (0: none yet, v is that of this
- * instant); then its velocity half a step later, from which the kinetic energy of now follows. */
+/* Adds the second half of the work over the last step dt (s; 0: first step, v is the initial velocity); then
+ * advances the velocity by half steps to t + step / 2, and adds the kinetic energy at t. */
 static void kick (pg_moving_platens *w, size_t i, double dt, double step)
 {
     const pg_problem *p = w->problem;
@@ -178,7 +181,7 @@ static void kick (pg_moving_platens *w, size_t i, double dt, double step)
     }
 }
 
-/* ---- which points -------------------------------------------------------------------------------------- */
+/* ---- search for points --------------------------------------------------------------------------------- */
 typedef struct { const pg_moving_platens *w; const double *d; double limit; double *most; } looking;
 enum { BLOCK = 4096 };
 
@@ -201,7 +204,7 @@ static void look_at_blocks (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Has anything moved so far that a point that is not listed may touch? */
+/* *out 1: points or platens have moved so far that an unlisted point may touch. */
 static pg_status must_look (pg_moving_platens *w, const double *d, int *out)
 {
     pg_status status = PG_OK;
@@ -212,7 +215,7 @@ static pg_status must_look (pg_moving_platens *w, const double *d, int *out)
     for (size_t i = 0; i < w->nplaten; i++)
         for (size_t k = 0; k < w->dim; k++)
             rigid = fmax (rigid, root * fabs (w->platen[i].now.u[k] - w->platen[i].place[k]));
-    if (w->way + rigid > margin * w->finest) {             /* the sum of steps is too much: look at points */
+    if (w->way + rigid > margin * w->finest) {  /* the bound is too large: measures the actual motion */
         PG_GROW (w->sum, w->cap, nblock);
         looking l = { w, d, 0, w->sum };
         pg_parallel (w->problem->threads, nblock, look_at_blocks, &l);
@@ -224,7 +227,7 @@ done:
     return status;
 }
 
-/* The distance of a point from the platen as both are now. */
+/* Current distance of point i from the platen, m. */
 static double distance_of (const pg_moving_platens *w, const pg_platen *own, const platen_state *s,
                            const double *d, size_t i, double *normal)
 {
@@ -234,7 +237,8 @@ static double distance_of (const pg_moving_platens *w, const pg_platen *own, con
     return pg_platen_distance (own, w->problem->dim, x, normal);
 }
 
-/* Points of each platen that lie within their reach and the margin of it; also beside a plane that ends. */
+/* Lists the points of each platen within their contact distance plus margin, also slightly beside a plane of
+ * finite width. */
 static pg_status look (pg_moving_platens *w, const double *d)
 {
     pg_status status = PG_OK;
@@ -261,7 +265,7 @@ done:
 /* ---- forces -------------------------------------------------------------------------------------------- */
 typedef struct { pg_moving_platens *w; size_t platen; const double *d, *v; double dt, *f; } pressing;
 
-/* One point: what the platen does to it, added to f and told in `sum`. */
+/* Adds the contact force of the platen on one point to f, and its contributions to energies etc. to `sum`. */
 static void one_point (const pressing *a, size_t i, double *sum)
 {
     pg_moving_platens *w = a->w;
@@ -306,7 +310,7 @@ static void press_points (void *context, size_t first, size_t last, int thread)
                                                      a->w->sum + q * SUMS);
 }
 
-/* All points of one platen; sums in the order of the points. */
+/* Computes the forces of one platen on all its points; sums in the order of the points. */
 static pg_status press_all (pg_moving_platens *w, size_t j, const double *d, const double *v, double dt,
                             double *f, double *held)
 {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The search for points that may touch. The moved points are sorted into the tree that finds families, with a
- * reach of the contact distance and a skin; pairs that a live bond joins are left out. While no point has
- * moved more than half the skin since, two points cannot have come nearer by more than the skin, and no pair
- * is missing. Bonds that break are added to the list by themselves. */
+ * Search for pairs of points that may touch: by the tree for families over the displaced points, within the
+ * contact distance plus a skin; pairs joined by an intact bond are excluded. While no point has moved by more
+ * than half the skin, no pair is missing. Pairs of newly broken bonds are added without a new search. */
 #include "near_pairs.h"
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +16,7 @@ static double size_of (const near_pairs *s, size_t i)
     return c->size ? c->size[i] : c->h;
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------------------ */
 pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contact_setting *setting,
                        size_t stride)
 {
@@ -68,7 +67,7 @@ static near_pair pair_of (const near_pairs *s, size_t i, size_t j)
                          .share = G > 0 ? fmin (G / M, 1) : 0 };
 }
 
-/* The entry of j in the family of i; SIZE_MAX: it is not there. Families ascend. */
+/* Entry of node j in the family of i (bisection); SIZE_MAX: j is not in it. */
 static size_t entry_of (const pg_family *family, size_t i, int j)
 {
     size_t low = family->start[i], high = family->start[i + 1];
@@ -91,8 +90,8 @@ static int bonded (const near_pairs *s, const unsigned char *alive, size_t i, si
 /* ---- has anything moved too far? ----------------------------------------------------------------------- */
 typedef struct { const near_pairs *s; const double *d; size_t ndof; } motion_look;
 
-/* The largest change of a component in each block, in eight lanes, which serve vector instructions. What is
- * not finite counts as moved beyond all bounds. */
+/* Finds the largest change of a displacement component in each block (eight lanes for vector instructions);
+ * INFINITY if values are not finite. */
 static void look_at_blocks (void *context, size_t first, size_t last, int thread)
 {
     const motion_look *w = context;
@@ -113,7 +112,7 @@ static void look_at_blocks (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* A bound of how far a point has moved since the last search, m. */
+/* Upper bound of the motion of any point since the last search, m. */
 static double moved (near_pairs *s, const double *d)
 {
     motion_look w = { s, d, s->problem->cloud.n * s->stride };
@@ -127,7 +126,7 @@ static double moved (near_pairs *s, const double *d)
 pg_status near_collect (near_pairs *s)
 {
     pg_status status = PG_OK;
-    if (!s->valid) return PG_OK;                       /* what is to be remembered is there already */
+    if (!s->valid) return PG_OK;                       /* `memory` is up to date already */
     s->nmemory = 0;
     for (size_t q = 0; q < s->n; q++) {
         static const double none[3] = { 0 };
@@ -147,7 +146,8 @@ static int before (int i, int j, int other_i, int other_j)
     return i < other_i || (i == other_i && j < other_j);
 }
 
-/* Rows of the sorted list, and the slips that its pairs had; pairs that are not in the list were apart. */
+/* Sets the rows of the sorted list, and restores slips and reduced contact distances of its pairs from
+ * `memory`. */
 static pg_status finish (near_pairs *s)
 {
     pg_status status = PG_OK;
@@ -170,8 +170,8 @@ done:
 }
 
 /* ---- search -------------------------------------------------------------------------------------------- */
-/* Points of one spacing see each other; of two that differ the smaller sees the larger, if one sees any. The
- * pair is taken where it is surely seen. */
+/* Returns 1: pair i, j is taken from the family of i: at the point of smaller spacing (equal: of lower
+ * index), whose family surely contains the other. */
 static int takes (const near_pairs *s, size_t i, size_t j)
 {
     double a = size_of (s, i), b = size_of (s, j);
@@ -186,7 +186,7 @@ static int by_place (const void *a, const void *b)
     return before (p->i, p->j, q->i, q->j) ? -1 : before (q->i, q->j, p->i, p->j);
 }
 
-/* Both directions of the pairs, sorted: counted by their first point, then each row by its second. */
+/* Makes the list with both directions of the pairs, sorted by first point (counting sort), then by second. */
 static pg_status sort_pairs (near_pairs *s, size_t npair, const found_pair *found)
 {
     pg_status status = PG_OK;
@@ -211,7 +211,7 @@ done:
     return status;
 }
 
-/* All pairs at hand, by the tree over the moved points. */
+/* Searches all pairs anew, by the tree over the displaced points. */
 static pg_status search (near_pairs *s, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -251,7 +251,7 @@ done:
 }
 
 /* ---- bonds that broke ---------------------------------------------------------------------------------- */
-/* Were the two so near at the last search that they may touch before the next one? */
+/* Returns 1: at the last search points i and j were so near that they may touch before the next one. */
 static int within (const near_pairs *s, size_t i, size_t j, double reach)
 {
     double rr = 0, limit = reach + s->skin * fmax (size_of (s, i), size_of (s, j));
@@ -262,7 +262,7 @@ static int within (const near_pairs *s, size_t i, size_t j, double reach)
     return rr <= limit * limit * (1 + 1e-9);
 }
 
-/* Pairs whose bond broke and that are not joined from the other side, merged into the list. */
+/* Merges the pairs of newly broken bonds (broken in both directions) into the list. */
 static pg_status add_broken (near_pairs *s, const pg_state *state, const pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -299,7 +299,7 @@ done:
     return status;
 }
 
-/* How far apart the two are now, by the same sums as where their force is asked for. */
+/* Current distance of points i and j, m, computed exactly as for their force. */
 static double apart (const near_pairs *s, const pg_state *state, size_t i, size_t j)
 {
     const double *x = s->problem->cloud.x, *d = state->d;
@@ -317,9 +317,9 @@ static near_pair *listed (near_pairs *s, int i, int j)
     return pg_search (&one, s->pair, s->n, sizeof one, by_place);
 }
 
-/* Two whose bond breaks while they are nearer than their contact distance do not touch at once: a spring that
- * came into being with a load in it would give energy to the body. They touch where they are, until they have
- * been apart. Impulses know by themselves how far such pairs may go. */
+/* Pairs whose bond breaks at less than their contact distance get their present distance as contact distance,
+ * until they have been farther apart: otherwise the contact spring would start loaded and add energy. Not
+ * needed for impulses. */
 static void touch_from_here (near_pairs *s, const pg_state *state, const pg_changes *broken)
 {
     const pg_family *family = &s->problem->bonds.rows[PG_NODES].family;
@@ -335,13 +335,13 @@ static void touch_from_here (near_pairs *s, const pg_state *state, const pg_chan
     }
 }
 
-/* The sum of what points have moved in each step at most is enough as long as it is small; else they are
- * looked at. */
+/* Updates the list: the summed bounds of motion per step suffice while small; else the actual motion is
+ * measured. */
 pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed,
                        double way)
 {
     pg_status status = PG_OK;
-    /* impulses look ahead: half of that is for the way of the step to come */
+    /* impulses need the pairs one step ahead: half of the skin is kept for the next step */
     double limit = (s->impulses ? 0.25 : 0.5) * s->skin * s->finest;
     int keeps = s->valid && !changed && limit > 0 && !s->problem->plain;
     s->way += way;
@@ -351,7 +351,7 @@ pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *b
         if (broken) touch_from_here (s, state, broken);
         goto done;
     }
-    /* lost runs end where they are looked at: there is nothing to be found in them */
+    /* displacements that are not finite: no search (the run ends elsewhere) */
     for (size_t i = 0; i < s->problem->cloud.n * s->stride; i++) if (!isfinite (state->d[i])) goto done;
     PG_TRY (search (s, state));
     if (broken) touch_from_here (s, state, broken);

@@ -1,34 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks in pieces of about two spacings, and the rows of their mean gaps and slips.
+ * Divides cracks into pieces of about two spacings, and computes the rows of their mean gaps and slips.
  *
  * Straight segments of cracks that meet end to end, and turn by less than half a radian there, form a path;
- * so much of it as cuts bonds (behind tips it does not, mechanics/model/pre_crack_tips.c) is divided
- * into pieces
- * of equal length,
- * measured in local spacings. A piece is sampled at points, eight per spacing, in the middle of equal parts;
- * points outside the body do not count. With weights w_q = length of the part times thickness,
+ * the part of it that cuts bonds (not just behind tips: mechanics/model/pre_crack_tips.c) is divided into
+ * pieces of equal length in local spacings. A piece is sampled at points, eight per spacing, in the middle of
+ * equal parts; points outside the body are ignored. With weights w_q = length of the part times thickness,
  *
  *     g_n = sum_q w_q n_q . [u]_q / sum_q w_q,    g_t the same with t_q,    t = (n_y, -n_x),
  *
- * [u] = u (left) - u (right) by one-sided shape functions (pg_force_type.jump). */
+ * [u] = u (left) - u (right) by one-sided shape functions (surfaces.jump of the force). */
 #include "pieces.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A crack meets another one where it ends this near to it, in spacings; those that lie nearly along each
- * other (sine of their angle) do not. */
+/* A crack meets another one if it ends within MEETS spacings of it, unless they are nearly parallel (sine of
+ * their angle below ALONG). */
 static const double MEETS = 1e-3, ALONG = 1e-3;
 
-/* A straight part of a path, at most a spacing long, and its spacing, m; of the first one of a path also
- * whether the path begins (1) and ends (2) where cracks meet. */
+/* A straight part of a path, at most a spacing long, m; h: local spacing, m; met (first link of a path): bits
+ * 1, 2: the path begins, ends where cracks meet. */
 typedef struct { double from[2], to[2], length, h; size_t path; int met; } link;
-/* A segment of a crack, as far as it cuts; ends that reach their vertex may be joined to others. met: another
- * crack meets it there, or it ends on another one. */
+/* The part of a crack segment that cuts bonds. whole: 1: the end reaches the vertex and may be joined to
+ * others; met: 1: cracks meet at that end. */
 typedef struct { double end[2][2]; int whole[2], met[2], used; } segment;
 typedef struct {
     const pg_problem *p;
-    double nothing;                                    /* places no further apart are one, m */
+    double nothing;                                    /* positions no further apart are equal, m */
     segment *segment;  size_t nsegment;
     link *link;  size_t nlink, cap_link;
     size_t cap_x, cap_normal, cap_tangent, cap_weight, cap_piece, cap_first;
@@ -58,8 +56,8 @@ done:
     return status;
 }
 
-/* Where segment k is met by segment j between its ends, as a share of its length; NAN: nowhere. A crack that
- * runs into another one ends on it but for rounding. */
+/* Position at which segment j meets segment k between its ends, as a fraction of the length of k; NAN: it
+ * does not. */
 static double met_at (const division *d, size_t k, size_t j)
 {
     const segment *s = &d->segment[k], *o = &d->segment[j];
@@ -74,7 +72,7 @@ static double met_at (const division *d, size_t k, size_t j)
     return share > 0 && share < 1 && by >= -near && by <= 1 + near ? share : NAN;
 }
 
-/* Does a segment end on another one, between the ends of that? */
+/* Returns 1: the segment ends on another one, between the ends of that. */
 static int ends_on_another (const division *d, const segment *s, int end)
 {
     for (size_t k = 0; k < d->nsegment; k++) {
@@ -88,8 +86,8 @@ static int ends_on_another (const division *d, const segment *s, int end)
     return 0;
 }
 
-/* Cuts segments where others meet them: the face that is met falls into two, which move each by itself, so
- * that no piece may reach across. Parts of less than half a spacing are left with their neighbours. */
+/* Splits segments where others meet them, as the two parts of the face that is met move independently and no
+ * piece may extend across. Parts shorter than half a spacing are not split off. */
 static pg_status split_segments (division *d)
 {
     pg_status status = PG_OK;
@@ -128,8 +126,8 @@ done:
     return status;
 }
 
-/* The segment that continues segment k beyond its end `end`, and its own end that lies there; SIZE_MAX: none
- * or several, or a turn too sharp for one piece. */
+/* Segment that continues segment k beyond its end `end`; *begins: its end that lies there. SIZE_MAX: none or
+ * several, or the turn is too sharp. */
 static size_t next_of (const division *d, size_t k, int end, int *begins)
 {
     const segment *s = &d->segment[k];
@@ -153,8 +151,8 @@ static size_t next_of (const division *d, size_t k, int end, int *begins)
     return fabs (turn) > PG_CONTACT_TURN ? SIZE_MAX : found;
 }
 
-/* With consistent integration: the intervals by which the cells that end at the crack integrate over its
- * faces, a link each. */
+/* Consistent integration: appends one link per interval by which cells cut off at the crack integrate over
+ * its faces. */
 static pg_status add_intervals (division *d, const double *a, const double *b, size_t path)
 {
     pg_status status = PG_OK;
@@ -181,7 +179,7 @@ done:
     return status;
 }
 
-/* Appends a segment, walked from its end `begins`, in links. */
+/* Appends the links of a segment, starting at its end `begins`. */
 static pg_status add_links (division *d, size_t k, int begins, size_t path)
 {
     pg_status status = PG_OK;
@@ -210,7 +208,7 @@ done:
     return status;
 }
 
-/* Walks from every end that nothing is joined to; then around what is closed in itself. */
+/* Finds the paths: from every free end, then around closed loops. */
 static pg_status find_paths (division *d)
 {
     pg_status status = PG_OK;
@@ -236,7 +234,7 @@ done:
 }
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */
-/* Points of the part of a link from u to v (of its length), for the piece at hand. */
+/* Appends the sampling points of the part u .. v (fractions) of a link to the current piece. */
 static pg_status add_points (division *d, pg_contact_pieces *out, const link *l, double u, double v)
 {
     pg_status status = PG_OK;
@@ -264,7 +262,7 @@ done:
     return status;
 }
 
-/* Ends the piece at hand, if it has points. */
+/* Completes the current piece, if it has points. */
 static void end_piece (pg_contact_pieces *out)
 {
     pg_contact_piece *k = &out->piece[out->n];
@@ -275,8 +273,8 @@ static void end_piece (pg_contact_pieces *out)
     out->first[++out->n] = out->npoint;
 }
 
-/* Where piece `at` of a path ends, in pieces of equal length; with `met` the outermost ones are two halves
- * each. */
+/* End of piece `at` of a path, in units of a full piece; at ends where cracks meet (bits of met) the
+ * outermost piece is divided into two halves. */
 static double end_of (size_t at, size_t pieces, int met)
 {
     size_t first = met & 1, last = met >> 1 && (pieces > 1 || !first);
@@ -290,9 +288,9 @@ size_t pieces_of (const pg_cloud *cloud, double size, double full)
     return pg_cloud_pieces (cloud, (size - 0.5 * full) * cloud->h, full * cloud->h);
 }
 
-/* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. Where
- * cracks meet the body between them turns by itself, so that mean gaps do not keep the ends of pieces apart:
- * there they are half as long. */
+/* Divides the links from .. to - 1 of one path into pieces of equal length in local spacings. Where cracks
+ * meet, the body between them can rotate, so that mean gaps do not prevent overlap at the ends of pieces:
+ * there pieces are half as long. */
 static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_t to)
 {
     pg_status status = PG_OK;
@@ -311,7 +309,7 @@ static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_
         while (u < 1) {
             double goal = end_of (at, even, met) * each, v = (goal - passed) / size;
             int ends = at + 1 < pieces && v < (d->p->form.consistency ? 1.5 : 1) + same / l->length;
-            if (!ends || v > 1 || d->p->form.consistency) v = 1;        /* intervals stay whole */
+            if (!ends || v > 1 || d->p->form.consistency) v = 1;        /* intervals are not divided */
             PG_TRY (add_points (d, out, l, u, v));
             if (ends) {
                 out->piece[out->n].arc = 0.5 * (begins + arc + v * l->length), begins = arc + v * l->length;
@@ -363,9 +361,8 @@ void pg_contact_pieces_clear (pg_contact_pieces *k)
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Adds the points of piece k to its rows, each of as many unknowns as all nodes have: row a, unknown c of
- * node j at row[(a n + j) dim + c]. Nodes that were touched are listed once. Returns the weight of points
- * that count. */
+/* Adds the points of piece k to its dense rows: row a, unknown c of node j at row[(a n + j) dim + c]. list
+ * (*count): affected nodes, each once. Returns the weight of points with values, m^2. */
 static double gather (const pg_contact_pieces *pieces, const pg_jump_rows *jump, size_t k, size_t n,
                       double *row, unsigned char *seen, int *list, size_t *count)
 {
@@ -396,7 +393,8 @@ static int compare_nodes (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* A column of the listed nodes, divided by the weight; the row is zeroed for the next piece. */
+/* Writes a dense row, divided by the weight, as a sparse column of the listed nodes, and zeroes it for the
+ * next piece. */
 static void put_column (pg_sparse *out, size_t column, size_t dim, const int *list, size_t count,
                         double weight, double *row)
 {
@@ -428,7 +426,7 @@ pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, c
         double weight = gather (pieces, jump, k, n, row, seen, list, &count);
         char third[32] = "";
         if (d == 3) snprintf (third, sizeof third, ", %.6g", pieces->piece[k].x[2]);
-        /* where single bonds break faces may crumble away: there is nothing to touch any more */
+        /* where single bonds break, faces may disintegrate: no contact then */
         if (!(weight > 0) && !pg_criterion_of_bonds (p->criterion))
             PG_FAIL (PG_E_USAGE,
                      "within %g spacings of (%.6g, %.6g%s) m the body sees too little on one side "
@@ -446,7 +444,7 @@ done:
     return status;
 }
 
-/* Points without values: how many, what share of all by weight, and the first of them. */
+/* Counts sampling points without values: number, fraction of the area, position of the first. */
 static pg_contact_blind blind_of (const pg_contact_pieces *pieces, const pg_jump_rows *jump)
 {
     pg_contact_blind out = { 0 };

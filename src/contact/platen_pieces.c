@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The surface of the body opposite a platen, in pieces of about two spacings, and what a rigid motion of the
- * platen does to their gaps.
+ * Divides the surface of the body opposite a platen into pieces of about two spacings; effect of rigid
+ * motions of the platen on their gaps.
  *
  * Points are those by which a traction is integrated over the boundary facets, so that forces of pieces are
- * tractions like any other, also on cut cells and meshes. They count where the surface faces the platen
- * within 60 degrees and nothing of the body lies between. Along the platen (in space: on a grid of its two
+ * tractions like any other, also on cut cells and meshes. Only points are used where the surface faces the
+ * platen within 60 degrees and no part of the body lies between. Along the platen (3D: on a grid of its two
  * directions) they are divided into pieces of equal size; gaps are measured along the normal n of the platen
- * at its nearest place, from the positions at the start:
+ * at its nearest point, from the initial positions:
  *
  *     g_n = distance + n . (u - v),    g_t = t . (u - v),    v = q + w x (x - point) the motion of the
  * platen. */
@@ -15,14 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cosine of the largest angle between the surface and the platen; how much deeper than another a point lies
- * that it hides, and the size of the boxes in which it does, spacings. */
+/* Cosine of the largest angle between surface and platen; in spacings: difference of distance from which a
+ * point hides another, and size of the boxes in which it is tested. */
 static const double FACES = 0.5, HIDES = 1.5, BOX = 0.5;
-/* Points further apart along the platen belong to two stretches, spacings. */
+/* Distance along the platen beyond which points belong to separate parts, spacings. */
 static const double APART = 1.25;
 
-/* A point of the surface, or its half on one side of a border of pieces: where it lies along the platen, m,
- * how far from it, and what it counts (area, m^2). */
+/* A point of the surface (index `at`), or a half of it on a border of pieces: coordinates s along the platen,
+ * distance from it, local spacing h, m; normal; weight: area, m^2; box: piece or grid indices. */
 typedef struct { size_t at; double s[2], distance, h, normal[3], weight; long box[2]; } candidate;
 typedef struct {
     const pg_problem *p;
@@ -32,7 +32,7 @@ typedef struct {
     double along[2][3];                                /* directions along the platen, at its `point` */
 } facing;
 
-/* ---- which points -------------------------------------------------------------------------------------- */
+/* ---- selection of points ------------------------------------------------------------------------------- */
 static double product (const double *a, const double *b, size_t dim)
 {
     double sum = 0;
@@ -40,7 +40,7 @@ static double product (const double *a, const double *b, size_t dim)
     return sum;
 }
 
-/* A unit vector at right angles to n, as near as can be to a; the other one completes a right-handed set. */
+/* Computes unit tangents t normal to n: the projection of a, and (3D) n x that. */
 static void tangents (const double *n, const double *a, size_t dim, double t[2][3])
 {
     if (dim == 2) {
@@ -49,7 +49,7 @@ static void tangents (const double *n, const double *a, size_t dim, double t[2][
     }
     double along = product (a, n, 3), size = 0;
     for (int k = 0; k < 3; k++) t[0][k] = a[k] - along * n[k], size += t[0][k] * t[0][k];
-    if (!(size > 1e-12)) {                             /* a sphere, a quarter around */
+    if (!(size > 1e-12)) {                             /* a is parallel to n (on a sphere) */
         const double other[3] = { a[1], a[2], a[0] };
         tangents (n, other, dim, t);
         return;
@@ -59,8 +59,8 @@ static void tangents (const double *n, const double *a, size_t dim, double t[2][
         t[1][k] = n[(k + 1) % 3] * t[0][(k + 2) % 3] - n[(k + 2) % 3] * t[0][(k + 1) % 3];
 }
 
-/* The mean normal of the platen over what faces it; the axis from which directions along it are taken is the
- * coordinate axis that lies flattest. */
+/* Finds two directions along the platen, tangents to its mean normal over the facing points: from the axis of
+ * a cylinder, or the coordinate axis nearest to the tangent plane. */
 static void find_directions (facing *f)
 {
     size_t dim = (size_t) f->p->dim, flat = 0;
@@ -76,7 +76,7 @@ static void find_directions (facing *f)
     tangents (mean, axis, dim, f->along);
 }
 
-/* Places along the platen: lengths on its surface, from its middle. */
+/* Computes the coordinates s of points along the platen: lengths on its surface from its middle, m. */
 static void find_places (facing *f)
 {
     const pg_platen *p = f->platen;
@@ -111,7 +111,8 @@ static int compare_boxes (const void *a, const void *b)
     return (i->at > j->at) - (i->at < j->at);
 }
 
-/* Takes out what others hide: of the points of a small box along the platen those that lie much deeper. */
+/* Removes hidden points: those in a small box along the platen that are much farther from it than the
+ * nearest. */
 static void drop_hidden (facing *f)
 {
     size_t kept = 0, dim = (size_t) f->p->dim;
@@ -157,9 +158,8 @@ static int compare_places (const void *a, const void *b)
     return (i->at > j->at) - (i->at < j->at);
 }
 
-/* Point i lies at `place` along an axis with n pieces of the length `each` (m): sets box[axis]. On the border
- * of two it goes half to each: rounding, and the sense in which they are counted, would choose one of
- * them. */
+/* Sets box[axis] of point i at position `place` (m) along an axis with n pieces of length `each` (m). On a
+ * border it is divided in halves, so that neither rounding nor direction decides. */
 static pg_status put_in_piece (facing *f, size_t i, int axis, double place, double each, long n)
 {
     pg_status status = PG_OK;
@@ -175,12 +175,11 @@ done:
     return status;
 }
 
-/* Plane: number of the piece of each point (box[0]), along stretches without breaks, by equal lengths in
- * local spacings. */
+/* 2D: sets the piece of each point (box[0]): equal lengths in local spacings along each connected part. */
 static pg_status divide_line (facing *f)
 {
     pg_status status = PG_OK;
-    size_t points = f->n;                              /* what comes behind them are halves */
+    size_t points = f->n;                              /* halves are appended behind them */
     long pieces = 0;
     double thick = f->p->cloud.thickness;
     pg_sort (f->point, f->n, sizeof *f->point, compare_places);
@@ -206,7 +205,7 @@ done:
     return status;
 }
 
-/* Space: boxes of a grid along the platen, of equal sizes; *boxes: how many. */
+/* 3D: assigns points to equal boxes of a grid along the platen; *boxes: their number. */
 static pg_status divide_grid (facing *f, long *boxes)
 {
     pg_status status = PG_OK;
@@ -231,7 +230,7 @@ done:
     return status;
 }
 
-/* Area (squares of spacings) and middle (m) of what is in a box. */
+/* Area (in squares of spacings) and centroid (m) of the points in a box. */
 typedef struct { double area, middle[2]; } filling;
 
 static double between (const filling *a, const filling *b)
@@ -239,11 +238,10 @@ static double between (const filling *a, const filling *b)
     return hypot (a->middle[0] - b->middle[0], a->middle[1] - b->middle[1]);
 }
 
-/* Less than a third of a whole box. */
+/* Returns 1: the box has less than a third of the area of a full one. */
 static int is_small (const filling *box) { return box->area < PG_CONTACT_PIECE * PG_CONTACT_PIECE / 3.0; }
 
-/* Point i goes to the box that is nearest to the middle of its own, in equal parts to those that are as
- * near. */
+/* Moves point i to the large box nearest to its own, in equal parts to equally near ones. */
 static pg_status move_to_nearest (facing *f, const filling *box, long boxes, size_t i)
 {
     pg_status status = PG_OK;
@@ -264,7 +262,7 @@ done:
     return status;
 }
 
-/* Small boxes are joined to others. */
+/* Merges small boxes into others. */
 static pg_status join_small (facing *f, long boxes)
 {
     pg_status status = PG_OK;
@@ -292,7 +290,7 @@ static int compare_pieces (const void *a, const void *b)
     return (i->at > j->at) - (i->at < j->at);
 }
 
-/* The mean direction of the points of a piece is its normal. */
+/* Completes a piece: centroid, mean normal, tangents, area, mean gap. */
 static void end_piece (pg_contact_pieces *out, const facing *f, double *gap, double weight)
 {
     size_t dim = out->dim;
@@ -306,7 +304,7 @@ static void end_piece (pg_contact_pieces *out, const facing *f, double *gap, dou
     out->first[++out->n] = out->npoint;
 }
 
-/* Points, sorted by pieces, in the arrays of `out`. */
+/* Copies the points, sorted by pieces, into the arrays of `out`. */
 static pg_status collect (facing *f, pg_contact_pieces *out, double **gap)
 {
     pg_status status = PG_OK;

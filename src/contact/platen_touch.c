@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a platen touches the surface of the body first. Places at which the surface is known lie some part of
- * a spacing apart, and the nearest one is some way beside the place of first touch: distances around it are
- * fitted by a parabola (in space a paraboloid), whose least value is that of the surface. */
+ * Least distance of a platen from the surface of the body. Sampling points of the surface are a fraction of a
+ * spacing apart; to find the point of first contact between them, distances around the nearest one are fitted
+ * by a parabola (3D: paraboloid), whose minimum is taken. */
 #include "perigal/contact.h"
 #include <math.h>
 #include <string.h>
 
-/* Places within so many spacings of the nearest one are fitted; the least value lies within so many. */
+/* In spacings: radius of the points fitted around the nearest one; range in which the minimum is searched. */
 static const double FITTED = 1.25, BESIDE = 0.5;
 enum { MOST = 6, STEPS = 20 };
 
-/* 1, s, s^2 and in space t, s t, t^2; lengths in spacings. */
+/* Terms of the fit: 1, s, s^2 and in 3D t, s t, t^2; s, t in spacings. Returns their number. */
 static size_t terms (size_t dim, double s, double t, double *out)
 {
     out[0] = 1, out[1] = s, out[2] = s * s;
@@ -19,7 +19,7 @@ static size_t terms (size_t dim, double s, double t, double *out)
     return MOST;
 }
 
-/* Two directions at right angles to n; the plane has one. */
+/* Computes unit directions e normal to n: one in 2D, two in 3D. */
 static void across (size_t dim, const double *n, double e[2][3])
 {
     size_t least = 0;
@@ -37,7 +37,8 @@ static void across (size_t dim, const double *n, double e[2][3])
         e[1][k] = n[(k + 1) % 3] * e[0][(k + 2) % 3] - n[(k + 2) % 3] * e[0][(k + 1) % 3];
 }
 
-/* The fit around the nearest place, in spacings; 0: too few places. */
+/* Fits the distances around point `nearest`: coefficients a, in spacings; returns their number, 0: too few
+ * points. */
 static size_t fit (const pg_contact_pieces *pieces, const pg_platen *platen, size_t nearest, double h,
                    double *a)
 {
@@ -85,5 +86,5 @@ double pg_platen_touches (const pg_contact_pieces *pieces, const pg_platen *plat
             for (size_t k = 0; k < n; k++) sum += a[k] * term[k];
             found = fmin (found, sum);
         }
-    return fmax (fmin (least, 0), found * h);          /* what is known to be apart does not overlap */
+    return fmax (fmin (least, 0), found * h);          /* no overlap unless a sampling point overlaps */
 }

@@ -1,37 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points that no live bond joins, held apart by impulses (perigal/contact.h): each time step the forces are
- * sought with which no pair ends it nearer than its contact distance.
+ * Contact by impulses of points without an intact bond (perigal/contact.h): in each time step the forces are
+ * computed with which no pair ends it nearer than its contact distance.
  *
- * Leapfrog goes from x_n-1 over x_n to x_n+1, the ways of a pair being D- and D+. The force F_n e of a pair,
- * along its line at x_n, does the work F_n e . (D- + D+) / 2. Pairs that would come too near get
+ * Leapfrog goes from x_n-1 over x_n to x_n+1; D- and D+ are the relative displacements of a pair in both
+ * steps. The force F_n e of a pair, along its line at x_n, does the work F_n e . (D- + D+) / 2. Pairs that
+ * would come too near get
  *
  *     F_n >= 0,   e . (D- + D+) >= 0,   F_n e . (D- + D+) = 0:
  *
- * Moreau's law of impact without loss, written for the ways of two steps. The line between the points is at
- * x_n+1 what it was at x_n-1, where it was long enough; contact takes no energy and gives none, and forces on
- * the two are opposite, along their line. Friction holds the two together across the line, D+ = 0, with at
- * most coefficient F_n. Pairs share points, so that all of them are gone through until nothing changes;
- * always in the same order, by one thread. */
+ * Moreau's law of impact without loss, for the displacements of two steps. The distance at x_n+1 is that at
+ * x_n-1, if that was large enough; contact conserves energy, and forces on the two points are opposite, along
+ * their line. Friction holds the two together across the line, D+ = 0, with at most coefficient F_n. As pairs
+ * share points, the pairs are swept until nothing changes, in fixed order by one thread. */
 #include "near_pairs.h"
 #include <math.h>
 #include <string.h>
 
 enum { SWEEPS = 400 };
-static const double settled = 1e-9;                    /* of a spacing: what a last sweep changes at most */
+static const double settled = 1e-9;  /* convergence: largest displacement by a sweep, spacings */
 
-/* A pair of points for which a contact force is sought in this step: its line, and how far a unit force moves
- * its points. */
+/* A pair with a contact force in this step. */
 struct held_pair {
     size_t i, j;
-    double y[3], e[3];                                 /* from i to j, m; the same as a unit vector */
-    double least;                                      /* no end of the step is nearer, m */
-    double lift;                                       /* by which the last one was nearer than that, m */
-    double along, across;                              /* way by a unit force, m/N */
-    double press, shear[3];                            /* forces on j, N */
+    double y[3], e[3];                                 /* vector from i to j, m; its unit vector */
+    double least;                                      /* least distance allowed at the end of the step, m */
+    double lift;  /* by which the distance at x_n-1 was below `least`, m */
+    double along, across;  /* relative displacement by a unit normal, shear force, m/N */
+    double press, shear[3];                            /* normal and shear force on j, N */
     int    spread;                                     /* 1: all pairs of its points are listed */
 };
 
-/* ---- which pairs --------------------------------------------------------------------------------------- */
+/* ---- selection of pairs -------------------------------------------------------------------------------- */
 static void way_of (const pg_short_range *c, const pg_point_ways *w, size_t i, size_t j, double *back,
                     double *ahead)
 {
@@ -43,10 +42,9 @@ static void way_of (const pg_short_range *c, const pg_point_ways *w, size_t i, s
     }
 }
 
-/* The pair is no nearer at the end of the step than its contact distance; bonds that break under pressure
- * leave points that are too near, which is not mended at once: then no nearer than at the beginning of this
- * step and of the last one. *lift: a bond that swings, and breaks as it is stretched, may have been nearer
- * than its points may come now. */
+/* Least distance of pair q at the end of the step, m: its contact distance; if it is already nearer (a bond
+ * that broke under pressure), the lesser distance at x_n and x_n-1. y: vector between the points, m; *lift:
+ * amount by which the distance at x_n-1 was smaller, m. */
 static double least_of (const pg_short_range *c, const double *d, size_t q, const double *back, double *y,
                         double *lift)
 {
@@ -96,7 +94,7 @@ static void look_at_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Puts pair q, of ascending points, on the list. */
+/* Adds pair q (with i < j) to the list of pairs with contact forces. */
 static pg_status take_pair (pg_short_range *c, const double *d, const pg_point_ways *w, size_t q)
 {
     pg_status status = PG_OK;
@@ -115,12 +113,12 @@ static pg_status take_pair (pg_short_range *c, const double *d, const pg_point_w
         h->e[k] = h->y[k] / sqrt (rr);
         h->along += h->e[k] * h->e[k] * gives, h->across = fmax (h->across, gives);
     }
-    if (h->along > 0) c->nheld++;                      /* else both are prescribed */
+    if (h->along > 0) c->nheld++;                      /* else both points are prescribed */
 done:
     return status;
 }
 
-/* The row of a point among those of the list; SIZE_MAX: it has none. */
+/* Row of point i in the list of pairs (bisection); SIZE_MAX: none. */
 static size_t row_of (const near_pairs *s, size_t i)
 {
     size_t low = 0, high = s->nrow;
@@ -132,7 +130,7 @@ static size_t row_of (const near_pairs *s, size_t i)
     return low < s->nrow && (size_t) s->pair[s->row[low]].i == i ? low : SIZE_MAX;
 }
 
-/* All pairs of a point that a force moves: any of them may come too near by that. */
+/* Adds all pairs of a point moved by a contact force, as any of them may come too near. */
 static pg_status take_neighbours (pg_short_range *c, const double *d, const pg_point_ways *w, size_t i)
 {
     pg_status status = PG_OK;
@@ -141,7 +139,7 @@ static pg_status take_neighbours (pg_short_range *c, const double *d, const pg_p
     if (r == SIZE_MAX) return PG_OK;
     for (size_t q = s->row[r]; q < s->row[r + 1]; q++) {
         size_t at = q;
-        if (s->pair[q].i > s->pair[q].j) {             /* a pair is marked in the row of its lower point */
+        if (s->pair[q].i > s->pair[q].j) {             /* pairs are marked in the row of the lower point */
             size_t other = row_of (s, (size_t) s->pair[q].j);
             at = s->row[other];
             while (s->pair[at].j != s->pair[q].i) at++;
@@ -159,7 +157,8 @@ static void push (pg_short_range *c, const held_pair *h, const double *f)
         c->force[h->j * c->near.stride + k] += f[k], c->force[h->i * c->near.stride + k] -= f[k];
 }
 
-/* Sets the forces of one pair as those of all others are; returns how far that moves its points, m. */
+/* Solves the forces of one pair with those of all others fixed; returns the displacement that the change
+ * causes, m. */
 static double hold (pg_short_range *c, const pg_point_ways *w, held_pair *h)
 {
     size_t dim = c->near.dim;
@@ -188,8 +187,8 @@ static double hold (pg_short_range *c, const pg_point_ways *w, held_pair *h)
     return moved + change * h->across;
 }
 
-/* Work of the forces at hand: what friction takes in the half step before and after; what the pairs have
- * taken of the motion and give back in the half step after. */
+/* Records work: of friction in the half steps before and after; now->energy: kinetic energy that pairs have
+ * taken and give back in the half step after. */
 static void book (pg_short_range *c, const pg_point_ways *w)
 {
     size_t dim = c->near.dim;
@@ -210,7 +209,7 @@ static void book (pg_short_range *c, const pg_point_ways *w)
     now->friction = c->taken;
 }
 
-/* Goes through the pairs until nothing changes; a pair whose points others move is taken up with them. */
+/* Sweeps over the pairs until nothing changes; pairs of points that are moved are added. */
 static pg_status hold_all (pg_short_range *c, const double *d, const pg_point_ways *w)
 {
     pg_status status = PG_OK;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Short-range forces between points that no live bond joins (perigal/contact.h).
+ * Short-range forces between points without an intact bond (perigal/contact.h).
  *
- * Each point sums what its own pairs do to it, so that threads write nothing of each other's, and the two
- * directions of a pair round alike: forces are equal and opposite to the last bit. A pair's spring of
- * friction follows the motion d past i across the line between them,
+ * Each point sums the forces of its own pairs, so that threads write to separate memory; both directions of a
+ * pair round alike: forces are equal and opposite to the last bit. A pair's spring of friction follows the
+ * motion d past i across the line between them,
  *
  *     q <- (1 - e e') (q + dt (v_j - v_i)),   T = k_t q,   |T| <= mu F_n: else q is shortened to that.
  *
- * What the springs have taken is summed as leapfrog sums work, 1/2 (T_n-1 + T_n) . (d_n - d_n-1); what of it
- * they do not hold is the work of friction. */
+ * The work taken by the friction springs is summed as in leapfrog, 1/2 (T_n-1 + T_n) . (d_n - d_n-1); less
+ * the energy that they store it is the work of friction. */
 #include "near_pairs.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* of a point, summed over its pairs */
+/* Sums over the pairs of a point. */
 enum { SUM_ENERGY, SUM_HELD, SUM_TAKEN, SUM_OVERLAP, SUM_RATE, SUM_TOUCHING, SUMS };
 
 pg_status pg_short_range_create (pg_short_range **out, const pg_problem *problem,
@@ -44,9 +44,8 @@ void pg_short_range_free (pg_short_range **contact)
     *contact = NULL;
 }
 
-/* Faces of lattices that meet have one contact a point where the points face each other, two (in the plane)
- * or four (in space) where they face the gaps; a pair of materials is at most twice as stiff as the
- * softer. */
+/* Lattice faces in contact have one contact per point where points face each other, two (2D) or four (3D)
+ * where they face gaps; a pair of two materials is at most twice as stiff as the softer one. */
 double pg_short_range_rate (const pg_short_range *c)
 {
     const pg_problem *p = c->near.problem;
@@ -64,7 +63,7 @@ double pg_short_range_rate (const pg_short_range *c)
 /* ---- forces -------------------------------------------------------------------------------------------- */
 typedef struct { pg_short_range *c; const double *d, *v; double dt, *f; } summing;
 
-/* One pair: f += force on its first point. */
+/* Adds the force of one pair on its first point to f (N), and its contributions to `sum`. */
 static void one_pair (const summing *w, size_t q, double *f, double *sum)
 {
     near_pairs *s = &w->c->near;
@@ -77,18 +76,18 @@ static void one_pair (const summing *w, size_t q, double *f, double *sum)
         rr += e[k] * e[k];
     }
     double r = sqrt (rr);
-    if (r >= p->full) p->reach = p->full;              /* they have been apart */
+    if (r >= p->full) p->reach = p->full;  /* after separation the usual contact distance applies */
     double overlap = p->reach - r, press = p->k * overlap, across = p->k * p->share;
     int touches = overlap > 0 && r > 0;
     for (size_t k = 0; slip && k < dim; k++) move[k] = w->dt > 0 ? w->dt * (w->v[b + k] - w->v[a + k]) : 0;
-    /* what the spring bore at the end of the last step takes half of the work of this one */
+    /* first half of the work of the friction spring in this step, by its force at the beginning */
     for (size_t k = 0; slip && k < dim; k++) sum[SUM_TAKEN] += 0.25 * across * slip[k] * move[k];
     if (!touches) {
         if (slip) memset (slip, 0, 3 * sizeof *slip);
         return;
     }
     for (size_t k = 0; k < dim; k++) e[k] /= r, f[k] -= press * e[k];
-    sum[SUM_ENERGY] += 0.25 * press * overlap;         /* each of the two has half */
+    sum[SUM_ENERGY] += 0.25 * press * overlap;         /* half for each of the two points */
     sum[SUM_OVERLAP] = fmax (sum[SUM_OVERLAP], overlap);
     sum[SUM_RATE] += 2 * p->k, sum[SUM_TOUCHING] += 0.5;
     if (!slip) return;
@@ -105,7 +104,7 @@ static void one_pair (const summing *w, size_t q, double *f, double *sum)
     }
 }
 
-/* The pairs of a range of points. */
+/* Sums the forces of the pairs of rows first .. last - 1. */
 static void sum_rows (void *context, size_t first, size_t last, int thread)
 {
     const summing *w = context;
@@ -157,7 +156,7 @@ const double *pg_short_range_forces (const pg_short_range *c) { return c->force;
 const pg_short_range_report *pg_short_range_now (const pg_short_range *c) { return &c->now; }
 
 /* ---- memory -------------------------------------------------------------------------------------------- */
-/* The slips of now, whether they stand in the list or wait for the next one. */
+/* Saves the current slips, from the list or from `memory`. */
 pg_status pg_short_range_save (pg_short_range *c)
 {
     pg_status status = PG_OK;
@@ -169,7 +168,7 @@ done:
     return status;
 }
 
-/* Bonds may live again: the list is made anew when forces are asked for. */
+/* Restores the saved slips; the list is searched anew, as bonds may be intact again. */
 pg_status pg_short_range_return (pg_short_range *c)
 {
     pg_status status = PG_OK;
@@ -194,7 +193,7 @@ done:
     return status;
 }
 
-/* The list itself is found again. */
+/* Writes or reads slips and energies; the list itself is searched anew. */
 pg_status pg_short_range_keep (pg_short_range *c, const pg_keeper *k)
 {
     pg_status status = PG_OK;

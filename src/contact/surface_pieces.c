@@ -1,44 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Surfaces of cracks in space in pieces of about two spacings each way.
+ * Divides surfaces of 3D cracks into pieces of about two by two spacings.
  *
- * A disc or polygon of the scene is looked at on a raster of four places per spacing along its longest edge
- * and across. So much of a cell as cuts bonds and lies in the body is a point that samples the gap, in the
- * middle of that part. Rows of the raster are joined to strips two spacings wide, and strips cut across into
- * pieces of equal area; a strip that is interrupted is several, and the ends of a surface that are too small
- * for a strip of their own go with their neighbours.
+ * A disc or polygon of the scene is sampled on a raster of four cells per spacing along its longest edge and
+ * across. The part of a cell that cuts bonds and lies in the body gives a sampling point of the gap, at its
+ * centroid. Rows of the raster are joined to strips two spacings wide, and strips cut across into pieces of
+ * equal area; interrupted strips are treated as several, and ends of a surface too small for a strip are
+ * merged with their neighbours.
  *
- * Triangles that have grown are divided into small ones, whose middles are the points. Where they lie in the
- * plane of a disc or polygon that cuts there itself they do not count again, and within half a spacing beside
- * it, where it stopped behind its front, they go with its pieces: behind a kink there is no more than that,
- * too narrow for pieces. The others, as far as their triangles share vertices without a sharp turn, are one
- * patch, and are gathered to pieces (gather_dots.c).
+ * Grown triangles are divided into small ones, whose centroids are sampling points. Those in the plane of a
+ * disc or polygon that cuts there itself are omitted; those within half a spacing beside it (where it ended
+ * behind its front) join its pieces, as this strip is too narrow for pieces of its own. The others form
+ * patches of triangles that share vertices without a sharp turn, and are clustered into pieces
+ * (gather_dots.c).
  *
  * All areas that are compared are measured in local spacings. */
 #include "pieces.h"
 #include <math.h>
 #include <string.h>
 
-/* Grown points so near to those of a disc or polygon, and so little out of its plane, go with them: spacings,
- * the cosine between the normals. */
+/* Grown points join a disc or polygon within BESIDE spacings of its points, OFF_PLANE spacings from its
+ * plane, with a cosine between normals of at least SAME_PLANE. */
 static const double BESIDE = 0.5, OFF_PLANE = 0.05, SAME_PLANE = 0.99;
 
-/* Parts of a cell of the raster each way. */
+/* Subdivisions of a raster cell in each direction. */
 enum { PARTS = 3 };
 static const double FULL = PG_CONTACT_PIECE * PG_CONTACT_PIECE;
 
 typedef struct {
     const pg_problem *p;
     dot *dot;  size_t ndot, cap_dot;
-    dot *grown;  size_t ngrown, cap_grown;             /* of triangles that have grown */
+    dot *grown;  size_t ngrown, cap_grown;             /* points of grown triangles */
     size_t npatch;
     size_t cap_x, cap_normal, cap_tangent, cap_weight, cap_piece, cap_first;
 } surface;
 
 /* ---- a plane crack on a raster ------------------------------------------------------------------------- */
-/* Axes of the crack in its plane, and how far it reaches along them from `origin`, m. */
+/* Axes of a plane crack, and its extent along them from `origin`, m. */
 typedef struct { double origin[3], axis[2][3], low[2], high[2]; } sheet;
 
-/* The first axis is the longest edge, the first of them if several are alike; of a disc its first vertex. */
+/* Sets the axes: the first is along the longest edge (the first of equal ones), for a disc towards its first
+ * vertex. */
 static void lay_sheet (const pg_crack *c, sheet *s)
 {
     const double *from = c->vertex;
@@ -72,7 +73,7 @@ static void place (const sheet *s, double u, double v, double *x)
     for (int k = 0; k < 3; k++) x[k] = s->origin[k] + u * s->axis[0][k] + v * s->axis[1][k];
 }
 
-/* The least spacing on the sheet, m. */
+/* Least local spacing on the crack, m. */
 static double finest (const surface *w, const sheet *s)
 {
     enum { LOOK = 8 };
@@ -86,7 +87,7 @@ static double finest (const surface *w, const sheet *s)
     return least;
 }
 
-/* The part of a cell that cuts and lies in the body, as a dot; cell: its sides, m. */
+/* Appends a dot for the part of a raster cell that cuts bonds and lies in the body; cell: its sides, m. */
 static pg_status add_cell (surface *w, const pg_crack *c, const sheet *s, const double cell[2], size_t row,
                            size_t column)
 {
@@ -112,8 +113,8 @@ done:
     return status;
 }
 
-/* Which part of `parts` equal ones holds the middle of each of n sizes that follow each other? Where it lies
- * on a border, part[far + i] is the part beyond that; else the same. */
+/* Assigns n consecutive sizes to `parts` equal parts by their middles: part[i]; if a middle lies on a border,
+ * part[far + i] is the next part, else the same. */
 static void share_out (size_t n, const double *size, size_t parts, size_t far, size_t *part)
 {
     double whole = 0, passed = 0, most = (double) parts - 1;
@@ -126,7 +127,7 @@ static void share_out (size_t n, const double *size, size_t parts, size_t far, s
     }
 }
 
-/* A dot on a border counts by one half on both sides: the other half is appended. */
+/* Divides a dot on a border in two halves, of which the second is appended. */
 static pg_status halve (surface *w, size_t i)
 {
     pg_status status = PG_OK;
@@ -137,7 +138,8 @@ done:
     return status;
 }
 
-/* How wide the rows are, as their cells in the mean of the local spacings; returns the width of all. */
+/* Computes the width of each row of the raster in local spacings (mean over its cells), and their sum
+ * *all. */
 static pg_status row_widths (const surface *w, size_t first, size_t rows, double cell, double *width,
                              double *all)
 {
@@ -155,7 +157,7 @@ done:
     return status;
 }
 
-/* Of `rows` rows, strips at the ends that are too small go to the next, until one is large enough. */
+/* Merges strips at the ends that are too small with the next ones, until one is large enough. */
 static pg_status join_small (size_t rows, const double *area, size_t *strip, size_t count)
 {
     pg_status status = PG_OK;
@@ -175,7 +177,7 @@ done:
     return status;
 }
 
-/* Strips of the raster: of each row, which one; numbers from `rows` on are the other halves of rows on a
+/* Assigns rows of the raster to strips; rows numbered from `rows` on are second halves of rows on a
  * border. */
 static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip,
                               size_t *count)
@@ -200,8 +202,8 @@ done:
     return status;
 }
 
-/* A strip in pieces: columns that follow each other without a gap are one run, and are cut into pieces of
- * equal area. *next: number of the next piece. */
+/* Cuts a strip into pieces: each run of columns without a gap is divided into pieces of equal area. *next:
+ * number of the next piece. */
 static pg_status cut_strip (surface *w, size_t first, const size_t *strip, size_t number, size_t columns,
                             size_t *next)
 {
@@ -236,7 +238,8 @@ done:
 
 /* ---- pieces from dots ---------------------------------------------------------------------------------- */
 /* Appends dots from `first` on, which belong to the pieces 0 to count - 1, as pieces of one path. along:
- * about the first tangent; NULL: the axis that lies most in the plane of each piece. */
+ * approximate direction of the first tangent; NULL: the coordinate axis nearest to the plane of each
+ * piece. */
 static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, size_t count,
                              const double *along)
 {
@@ -277,8 +280,8 @@ done:
     return status;
 }
 
-/* The dot of a sheet, from `first` on, that is nearest to a grown one; local spacings squared, INFINITY: the
- * grown one is not in the plane. */
+/* Finds the dot of a plane crack (from `first` on) nearest to a grown dot; returns the squared distance in
+ * local spacings; INFINITY: the grown dot is not in its plane. */
 static double nearest_of_sheet (const surface *w, const dot *grown, size_t first, size_t *nearest)
 {
     double least = INFINITY, h2 = grown->area / grown->size, off = 0;
@@ -295,8 +298,8 @@ static double nearest_of_sheet (const surface *w, const dot *grown, size_t first
     return least;
 }
 
-/* Grown dots in the plane of crack c, whose own dots are those from `first` on: where it cuts itself they are
- * left out, beside that they become dots of the nearest piece. */
+/* Treats grown dots in the plane of crack c (own dots from `first` on): omits those where c itself cuts, and
+ * assigns those beside it to the nearest piece. */
 static pg_status join_grown (surface *w, const pg_crack *c, size_t first)
 {
     pg_status status = PG_OK;
@@ -343,7 +346,8 @@ done:
 }
 
 /* ---- triangles that have grown ------------------------------------------------------------------------- */
-/* A triangle in m^2 small ones, whose sides are shorter than the distance between points. */
+/* Divides a grown triangle into parts^2 small ones, with sides shorter than the distance of sampling points,
+ * and appends their centroids. */
 static pg_status add_triangle (surface *w, const pg_crack *c, size_t number)
 {
     pg_status status = PG_OK;
@@ -361,7 +365,7 @@ static pg_status add_triangle (surface *w, const pg_crack *c, size_t number)
     PG_GROW (w->grown, w->cap_grown, w->ngrown + parts * parts);
     for (size_t i = 0; i < parts; i++)
         for (size_t j = 0; j < 2 * (parts - i) - 1; j++) {
-            /* upright ones have j even, those upside down between them j odd */
+            /* even j: upright triangles, odd j: inverted ones between them */
             double third = j % 2 ? 2.0 / 3 : 1.0 / 3, s = ((double) i + third) / (double) parts,
                    t = ((double) (j / 2) + third) / (double) parts, h;
             dot *d = &w->grown[w->ngrown];
@@ -376,7 +380,7 @@ done:
     return status;
 }
 
-/* Do two triangles share a vertex without a sharp turn? */
+/* Returns 1: two triangles share a vertex without a sharp turn. */
 static int goes_on (const pg_crack_surfaces *s, size_t a, size_t b)
 {
     if (pg_dot3 (s->cracks.crack[s->nfirst + a].normal, s->cracks.crack[s->nfirst + b].normal)
@@ -386,7 +390,7 @@ static int goes_on (const pg_crack_surfaces *s, size_t a, size_t b)
     return 0;
 }
 
-/* What is left of a triangle, to the dots of the patch at hand. */
+/* Appends the remaining dots of a triangle to the current patch. */
 static pg_status take_triangle (surface *w, size_t number)
 {
     pg_status status = PG_OK;
@@ -399,7 +403,7 @@ done:
     return status;
 }
 
-/* Patch by patch: all triangles that hang together with the first one left. */
+/* Divides the grown triangles into pieces, patch by patch of connected triangles. */
 static pg_status divide_grown (surface *w, pg_contact_pieces *out, const pg_crack_surfaces *s)
 {
     pg_status status = PG_OK;
