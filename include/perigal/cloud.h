@@ -184,10 +184,10 @@ void      pg_stairs_clear  (pg_shape *stairs);
 int       pg_stairs_step   (const pg_shape *stairs, const int *i, int face);
 
 /* ---- surfaces of flat pieces --------------------------------------------------------------------------- */
-/* The surface of a mesh or an alpha shape as flat pieces: segments in 2D, triangles in 3D. Straight faces are
- * taken as they are, curved ones are divided into pieces no longer than 3/4 of a step of the lattice, whose
- * corners lie on the face. Pieces that touch along an edge, lie in one plane and belong to the same side
- * sets form a region, so that a plane side of a body is one region however its mesh is divided. */
+/* The surface of a mesh or an alpha shape as flat pieces: segments in 2D, triangles in 3D. Plane faces are
+ * kept, curved ones are divided into pieces no longer than 3/4 of a step of the lattice, whose corners lie on
+ * the face. Pieces that touch along an edge, lie in one plane and belong to the same side sets form a region,
+ * so that a plane side of a body is one region however its mesh is divided. */
 typedef struct {
     int     dim;
     /* Number of flat pieces, their corners (n x dim corners x dim, m) in an order that makes their normals
@@ -413,9 +413,9 @@ enum { PG_OUTLOOK = 32 };
 typedef struct { int n, all, member[PG_OUTLOOK]; } pg_outlook;
 int       pg_between_look   (const pg_between *between, const double *low, const double *high,
                              pg_outlook *out);
-/* 1: the segment from x to y leaves the body through one face and comes back through one that looks the other
- * way, or runs outside for more than half a spacing and is not the chord of a smooth surface. Symmetric in x
- * and y. outlook: of a box that holds both; NULL: of the whole body. */
+/* Returns 1: the segment from x to y leaves the body through one face and re-enters through one of opposite
+ * normal, or runs outside for more than half a spacing and is not the chord of a smooth surface. Symmetric in
+ * x and y. outlook: of a box that holds both; NULL: of the whole body. */
 int       pg_between_parted (const pg_between *between, const pg_outlook *outlook, const double *x,
                              const double *y);
 /* Finds the first part of the segment from x to y, beyond the fraction `after` of it, that lies outside the

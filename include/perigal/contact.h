@@ -247,7 +247,7 @@ typedef struct { int i, j; } pg_contact_pair;
 pg_status pg_short_range_pairs  (const pg_short_range *contact, const pg_state *state, size_t *n,
                                  pg_contact_pair **pair);
 
-/* ---- platens in explicit steps ------------------------------------------------------------------------- */
+/* ---- platens in explicit time integration -------------------------------------------------------------- */
 /* Rigid platens (problem->platen) press on points that come nearer to their surface than half the contact
  * distance, and nearer than at the start: F_n = k (l - distance), k and friction as in short-range forces,
  * but with the properties of the point alone. A platen with a mass moves by its forces along all axes on

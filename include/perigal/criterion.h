@@ -127,7 +127,7 @@ struct pg_criterion_type {
     int  (*uneven)   (const pg_criterion *c);
     /* Criteria of tips: polyline that cracks must follow, m (*n x 2); NULL: none. */
     const double *(*path) (const pg_criterion *c, size_t *n);
-    void (*clear)    (pg_criterion *c);                /* frees c->own; NULL: there is nothing in it */
+    void (*clear)    (pg_criterion *c);                /* frees c->own; NULL: nothing to free */
     /* Writes one line for logs and reports: constants given and derived. */
     void (*describe) (const pg_criterion *c, char *text, size_t size);
 };

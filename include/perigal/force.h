@@ -217,8 +217,8 @@ typedef struct {
      * Arguments NULL: not wanted. */
     pg_status (*mass)    (void *self, double *lumped, const pg_sparse **consistent);
     const pg_operator *(*operator_) (void *self);                          /* the operator K x, or NULL */
-    /* Returns K, in the condition asked for by `want`. *K = NULL: this problem has no matrix; (*K)->value
-     * NULL: not assembled. Entry NULL: matrix-free. Use pg_force_assemble, pg_force_matrix. */
+    /* Returns K in the state given by `want`. *K = NULL: this problem has no matrix; (*K)->value NULL: not
+     * assembled. Entry NULL: matrix-free. Use pg_force_assemble, pg_force_matrix. */
     pg_status (*matrix)  (void *self, pg_matrix_want want, const pg_sparse **K);
     /* Returns T of the elimination of prescribed displacements, d = T q + g; NULL (entry or result): no
      * elimination. */

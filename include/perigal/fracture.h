@@ -94,7 +94,7 @@ void      pg_tip_limit_words (const pg_problem *p, const pg_tip_field *f, char *
  * of the crack faces (NULL: none). The uniform field with the same stress across them is subtracted: the rest
  * has free faces behind the tip, and the K_II of the tip; rings of an open tip end before the next closed
  * piece, as their integrals contain no tractions; those of a kink contain the tractions on the straight crack
- * behind it. facet: length of trial facets at whose end K is asked for, m (0: it is not). */
+ * behind it. facet: length of trial facets at whose end K is computed, m (0: it is not). */
 pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t, const pg_tip_faces *faces, double facet);

@@ -68,10 +68,10 @@ int       pg_result_kept (const pg_result *result);
 pg_status pg_result_discard (const char *folder);
 /* Writes the rows of a finished step and, where they are due, its fields. */
 pg_status pg_result_step  (pg_result *result, const pg_state *state, const pg_step *step);
-/* To be called in the middle of a step, between two rounds of breaking (pg_watch): writes
- * fields when another share output.at.broken of all bonds has broken. */
+/* To be called in the middle of a step, between two rounds of breaking (pg_watch): writes fields when a
+ * further fraction output.at.broken of all bonds has broken. */
 pg_status pg_result_stage (pg_result *result, const pg_state *state, const pg_step *so_far);
-/* The current step was refused: the state is that of its start again. */
+/* To be called when the current step was rejected and the state has been reset to that at its start. */
 void      pg_result_refused (pg_result *result);
 /* Writes the last fields, the pictures and report.json. failure: NULL, or the message of what
  * ended the run; search and total: seconds spent in the search for neighbours and in the whole

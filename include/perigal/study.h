@@ -162,8 +162,8 @@ pg_status pg_series_run_all (pg_series_result *out /* n */, const pg_series_requ
 /* Finds what is in folder/name: 1: a finished run of the scene with these values; 0: none; -1: a finished run
  * of another scene or of other values. PG_E_SCENE: the scene is wrong. */
 pg_status pg_series_look (int *out, const pg_series_request *q, const pg_series_run *run);
-/* Passes every run that is not finished and has no checkpoint through `perigal check`, as many at a time as
- * may run. PG_E_SCENE, PG_E_LIMIT ...: what is wrong, and with which of them. */
+/* Runs `perigal check` on every run of the series that is neither finished nor has a checkpoint, in parallel
+ * (q->jobs). PG_E_SCENE, PG_E_LIMIT ...: the message names the run and the fault. */
 pg_status pg_series_check (const pg_series_request *q);
 
 /* Statistics: mean, standard deviation (n - 1), least, median and largest of those of n values that are
@@ -229,7 +229,7 @@ typedef struct {
     /* What the picture shows: a column 0 to 8, PG_COMPARE_U or PG_COMPARE_S; -1: the usual
      * one. */
     int    column;
-    /* Takes the names of the files written; NULL: quiet. */
+    /* Stream for the names of the files written; NULL: quiet. */
     FILE  *out;
 } pg_comparison_request;
 /* Both sides of a comparison and what it found. */

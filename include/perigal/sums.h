@@ -148,7 +148,7 @@ pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_k
 void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu,
                     double bond_poisson);
 typedef struct {
-    double calibration;                                /* C_t,h / C_t; C_N has that of pg_sums */
+    double calibration;                                /* C_t,h / C_t (of C_N: pg_sums.calibration) */
     /* Energy of a straight cut, J/m^2, with all its bonds at s, gamma, kappa: C_N / 2 along s^2 + (6 C_t
      * gamma^2 + B / 2 kappa^2) across; along in m^5, across in m^3. From the lattice, mean of its axes, if
      * the rule is calibrated; else from theory. */

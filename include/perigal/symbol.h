@@ -69,11 +69,11 @@ void      pg_symbol_at     (const pg_symbol *symbol, const double *k, double *re
 
 /* The modes of one wave vector. */
 typedef struct {
-    /* Number of modes: m less the unknowns that are held. */
+    /* Number of modes: m less the fixed unknowns. */
     int    n;
     /* Eigenvalues or frequencies, ascending. */
     double value[PG_UNKNOWNS];
-    /* Share of rotations in the motion, 0 to 1. */
+    /* Fraction of the motion due to rotations, 0 to 1. */
     double turning[PG_UNKNOWNS];
     /* Share of the displacement that is along k (longitudinal), 0 to 1. Modes of equal value
      * have their mean. */

@@ -187,7 +187,7 @@ pg_status kinked_tip_measure (pg_tip_field *out, const measuring *m, size_t tip,
 
 /* ---- front_curve.c ------------------------------------------------------------------------------------- */
 void   front_at  (const pg_front *f, double u, front_place *out);
-/* Distance |u - i| along the front in vertices; in a loop the shorter way. */
+/* Distance |u - i| along the front in vertices; in a loop along the shorter part. */
 double front_gap (const pg_front *f, double u, size_t i);
 /* Components of a vector, of a tensor in the frame (rows e, n, t). */
 void   front_turn_vector (const double *frame, const double *v, double *out);

@@ -120,7 +120,7 @@ static void put_back (stride *s, size_t end, size_t beside)
     double h = stride_spacing (s, beside), own = pg_distance3 (x, s->old.x + 3*end),
            other = pg_distance3 (from, s->old.x + 3*beside);
     unsigned char meets;
-    if (s->shut[beside]) {                             /* a closed neighbour: the end moves as far as it */
+    if (s->shut[beside]) {  /* the neighbour is closed: the end moves as far as the neighbour */
         int goes = own > 0 && s->now.meets[end] == PG_MEETS_SURFACE;
         along_surface (s, end, beside);
         pg_shift3 (s->old.x + 3*end, s->way + 3*end, goes ? other : 0, x);
@@ -233,7 +233,7 @@ static void run_out (stride *s, size_t i)
     stride_shut (s, i, meets);
 }
 
-/* Closes parts of too few vertices between closed ones to be a front. */
+/* Closes parts between closed vertices that have too few vertices for a front. */
 static void close_short (stride *s)
 {
     size_t n = s->old.n;
