@@ -81,7 +81,7 @@ typedef struct {
 typedef struct pg_crack_paths {
     pg_cracks cracks;  size_t capacity, nfirst;        /* nfirst: cracks of the scene */
     size_t *parent;  /* per piece: the piece that it continues (they share a vertex); SIZE_MAX: none */
-    size_t *path;  /* per piece: number of its path; pieces of a path hang together by their vertices */
+    size_t *path;  /* per piece: number of its path; pieces of a path share vertices */
     long   *owner;  /* per piece: id of the tip that made it; 0: cracks of the scene, and new cracks */
     double *store;  /* memory of the vertices (4) and retreats (2) of each piece, m */
     pg_tip *tip;  size_t ntip, tip_capacity;

@@ -91,7 +91,7 @@ void      pg_symbol_solve  (const pg_symbol *symbol, const double *k, int weight
 void      pg_symbol_tangent (const pg_symbol *symbol, double *D);
 
 /* ---- survey -------------------------------------------------------------------------------------------- */
-/* One remarkable motion. */
+/* A wave motion reported by the survey. */
 typedef struct {
     /* Wave vector, rad/m. */
     double k[3];
