@@ -276,7 +276,7 @@ pg_status pg_force_bound (const pg_force_type *force, void *self, const pg_cloud
 const pg_force_type *pg_force_find  (const char *name);
 /* The force model for which the problem was built. */
 const pg_force_type *pg_force_of    (const pg_problem *problem);
-const pg_method *const *pg_force_methods (void);  /* those of all force models; ends with NULL */
+const pg_method *const *pg_force_methods (void);  /* methods of all force models; ends with NULL */
 /* Build the problem of a scene by pg_problem_prepare_with and pg_problem_complete of perigal/model.h, with
  * all force models. */
 pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threads);

@@ -248,7 +248,7 @@ int         pg_bond_loop_halves (const pg_bond_loop *loop);
  * rounding. 0 where a point has no intact bond. Results do not depend on the number of threads. */
 pg_status   pg_bond_loop_energies (pg_bond_loop *loop, const double *u, double *W);
 /* Computes for state-based sums the dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and
- * its q_i (m^2 times m^3 over the unit of w), both n or NULL (theta NULL: u is not read); 0 where no bond
+ * its q_i (m^5 times the unit of w), both n or NULL (theta NULL: u is not read); 0 where no bond
  * counts. PG_E_USAGE: bond-based sums. */
 pg_status   pg_bond_loop_dilatation (pg_bond_loop *loop, const double *u, double *theta, double *q);
 PG_API_END

@@ -51,7 +51,7 @@ struct pg_short_range {
     pg_contact_setting setting;
     double *force;                                     /* forces of the last evaluation, N (n x stride) */
     double *sum;  size_t cap;                          /* sums of each row */
-    double taken, taken0;                              /* work of friction springs, J; at step start */
+    double taken, taken0;                              /* work that friction springs took, J; at step start */
     pg_short_range_report now;
     near_memory *start;  size_t nstart, cap_start;     /* slips at the start of the step */
     /* impulses: held: pairs with contact forces; mark: 0 apart, 1 would overlap, 2 in `held` (per pair);
