@@ -35,7 +35,7 @@ static int has_matrix (const pg_problem *p, const pg_force_type *force, void *se
 {
     if (p->dim < 2 || pg_problem_unknowns (p) != p->dim || !p->equilibria || p->plain) return 0;
     if (p->cloud.regular && p->cloud.n > MOST_ON_LATTICE) return 0;    /* products cost little */
-    pg_solve_counts c = pg_solve_count (p);            /* will the run have no factor either (3D)? */
+    pg_solve_counts c = pg_solve_count (p);            /* of the run: in 3D it may solve without a factor */
     if (p->dim > 2 && (!p->method->shape_functions || pg_solve_by_elements (&c, 1, 0, 0))) return 0;
     return !(force->basis && force->basis (self)) && pg_force_matrix (force, self);
 }

@@ -84,7 +84,8 @@ static int is_rough (const pg_solver_options *o)
     return o->contact.kind != PG_CONTACT_NONE && (o->contact.coefficient > 0 || o->contact.cohesion > 0);
 }
 
-/* Refuses contact for which event stepping cannot handle loads that do not all grow with the load factor. */
+/* Event stepping: refuses kinds of contact that it can follow only where all loads grow with the load factor,
+ * if some of the loads do not. */
 static void check_faces (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
                          int closes)
 {

@@ -305,7 +305,7 @@ static void shape_pyramid (pg_element kind, const double *xi, double *N, double 
     if (dN) dN[12] = dN[13] = 0, dN[14] = 1;
 }
 
-/* Points have N = 1 and no derivative. */
+/* Shape functions at xi; elements that are points have N = 1 and leave dN alone. */
 void pg_element_shape (pg_element kind, const double *xi, double *N, double *dN)
 {
     switch (family_of[kind]) {

@@ -27,7 +27,8 @@ pg_status pg_solver_cut (pg_solver *s, pg_state *state, const pg_changes *cut)
     const char *why = refusal (s);
     if (why) PG_FAIL (PG_E_USAGE, "%s", why);
     for (size_t k = 0; k < cut->n; k++) state->alive[cut->bond[k]] = 0;
-    if (!s->started) s->begun = 0;                     /* the start examines the state again */
+    /* before the first step: the initial state is to be examined again, as cut */
+    if (!s->started) s->begun = 0;
     if (!s->started || cut->n == 0) goto done;
     PG_TRY (system_refresh (&s->break_loop.system, state, cut));
     s->follows = 0;                                    /* the copy of the state does not have these cuts */

@@ -97,7 +97,8 @@ static pg_status begin_stage (pg_solver *s, pg_state *state, double ended)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     size_t n = s->break_loop.system.ndof;
-    const double share = ended - stage_start (s) + 1;  /* share of the stage before */
+    /* share of the previous stage that had been loaded when it ended, 0 to 1 */
+    const double share = ended - stage_start (s) + 1;
     for (size_t i = 0; i < n; i++)
         e->base[i] = e->unit[i] = e->base[i] + share * (e->unit[i] - e->base[i]);
     s->break_loop.system.balance.borne =

@@ -63,7 +63,7 @@ static pg_status check_dt (pg_solver *s)
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
     if (s->options.dt <= limit) goto done;
     const pg_scene *scene = s->options.scene;
-    /* the step follows from solver.end / solver.time_steps */
+    /* the step is solver.end divided by solver.time_steps */
     if (scene && !pg_scene_given (scene, "solver.dt"))
         PG_TRY (options_fault (&s->options, "solver.time_steps",
                               "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / "

@@ -228,7 +228,7 @@ static double energy_of (const pg_problem *p, const disc *d, double R)
     return d->energy * acos (-1) * R * R * share_inside (p, d, R);
 }
 
-/* Tension on the disc over the strength, constant and slope in lambda: mean over rings, and least of the rim.
+/* Ratio of tension on the disc to strength, as a + b lambda (a, b): mean over rings, and least on the rim.
  * *rim 0: no part of the rim lies inside the body. */
 static pg_status tension_on (const search *g, const disc *d, double R, double mean[2], double least[2],
                              int *rim)

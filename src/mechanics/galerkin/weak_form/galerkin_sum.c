@@ -190,8 +190,8 @@ PG_WIDE static void sum_solid (const summing *m, size_t first, size_t last, doub
     }
 }
 
-/* Adds forces of points in 1D or 2D (dim is a constant) by measured stresses or (x given) those of
- * displacement x. */
+/* Adds to `sum` the internal forces of points in 1D or 2D: from the stresses stored at the points or, if x is
+ * given, from the stresses of displacement x. dim is a compile-time constant at each call. */
 INLINE void sum_flat (int dim, const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
