@@ -85,9 +85,7 @@ double pg_load_pattern (const pg_load *load, int k, int dim, const double *x);
 pg_place pg_place_of (int dim, const double *x, double t);             /* variables of expressions at x */
 /* Factor of a body force at a point of a bond set: the density, kg/m^3, if load->weighs, else 1. */
 double pg_load_density (const pg_problem *problem, const pg_load *load, int set, size_t point);
-/* Isotropic free strain at time t at a point of a bond set, by temperature, shrinkage and pore pressure.
- * pg_problem_strained: 1: there are loads PG_EIGENSTRAIN. */
-double pg_problem_eigenstrain (const pg_problem *problem, int set, size_t point, double t);
+/* 1: there are loads PG_EIGENSTRAIN: free strain by temperature, shrinkage or pore pressure. */
 int    pg_problem_strained    (const pg_problem *problem);
 /* 1: whether a bond breaks follows from the displacements of its two ends alone, by the same limit for all
  * bonds (one criterion with pg_criterion_type.elongation, no free strains, no graded points). */

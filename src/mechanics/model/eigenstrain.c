@@ -87,17 +87,6 @@ done:
     return status;
 }
 
-double pg_problem_eigenstrain (const pg_problem *p, int set, size_t point, double t)
-{
-    double sum = 0;
-    for (size_t l = 0; l < p->boundary.nload; l++)
-        if (p->boundary.load[l].kind == PG_EIGENSTRAIN)
-            sum += p->boundary.load[l].per_material[p->block[set][point]]
-                   * pg_load_value (&p->boundary.load[l], 0, p->dim,
-                                    p->bonds.rows[set].x + point * (size_t) p->dim, t);
-    return sum;
-}
-
 int pg_problem_strained (const pg_problem *p)
 {
     for (size_t l = 0; l < p->boundary.nload; l++) if (p->boundary.load[l].kind == PG_EIGENSTRAIN) return 1;

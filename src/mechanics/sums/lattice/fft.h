@@ -29,7 +29,6 @@ size_t    pg_fft_size       (size_t least, int even);
 fftw_plan pg_fft_plan_box   (const int *T, double *x);
 fftw_plan pg_fft_plan_box_back (const int *T, double *x);
 void      pg_fft_plan_free  (fftw_plan plan);
-double    pg_fft_work       (const fft_box *box);         /* operations of one transform of the box */
 
 /* Loops compiled for an instruction set (fft_rows.h). */
 typedef struct fft_kernels fft_kernels;

@@ -44,14 +44,6 @@ size_t pg_fft_size (size_t least, int even)
     return best;
 }
 
-/* 2.5 n log2 n operations, the usual count for real transforms. */
-double pg_fft_work (const fft_box *box)
-{
-    double n = 1;
-    for (int k = 0; k < 3; k++) n *= (double) box->T[k];
-    return 2.5 * n * log2 (n + 1);
-}
-
 /* ---- wisdom -------------------------------------------------------------------------------------------- */
 /* Writes the path of the file of wisdom, $XDG_CACHE_HOME/perigal/fftw_wisdom or below ~/.cache; make: 1:
  * makes its folders. Returns 0 if there is no place for it, so that plans have to be timed again. */
