@@ -68,7 +68,7 @@ typedef struct {
     double *gap, *rate;  /* gaps with open cracks: gap + s rate, m (dim n each) */
     /* touches 1: some piece closes; ready 1: the present linear stretch leads on from the present s */
     int     touches, ready;
-    /* contact along a linear stretch of the path; its arrays force, gap, status are those of system_contact */
+    /* contact along a linear stretch of the path; force, gap and status point into system_contact */
     pg_contact_track track;
     double *force_from;                                /* forces of the present line at s = 0, N (dim n) */
     double *mark;  size_t nmark, cap_mark;             /* states to which the path may return */
