@@ -88,6 +88,7 @@ typedef struct {
 typedef struct {
     unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
     unsigned long again;  /* revision, + 1, whose Z and C a resumed run remakes */
+    size_t    alone;  /* number of columns of Z solved one by one, before there was a factor */
     double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */
 } contact_compliance;
 struct system_contact {

@@ -106,11 +106,16 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     /* many columns are worth a factor of the present K where an older one would only precondition; else the
      * first solve makes the factor if there is to be one */
     if (s->choice.mode == SYSTEM_KEPT_FACTOR && f->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
+    /* a resumed run remakes columns as they were made, one by one or together: they would differ in their last
+     * digits otherwise */
+    int again = c->compliance.again == f->revision + 1;
+    if (again && c->compliance.alone == 0 && !system_has_factor (s) && system_factors (s))
+        PG_TRY (system_factorize (s, dyn));
     /* these solves are not counted, as some solves are measured by their number and a resumed run makes the
      * columns again */
     long solves = s->report->linear.solves;
     size_t first = 0;
-    for (; first < n && !system_has_factor (s); first++) {
+    for (; first < n && (!system_has_factor (s) || (again && first < c->compliance.alone)); first++) {
         if (!needs_column (c, first)) continue;
         /* iterations over all unknowns start from the full residual */
         load_column (s, first, b->residual, b->reduced);
@@ -120,6 +125,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
         PG_TRY (system_solve_once (s, dyn, c->pieces.dim == 3 ? COLUMN_SPACE : COLUMN));
         memcpy (solved + first * s->nred, b->delta, s->nred * sizeof *rhs);
     }
+    c->compliance.alone = first;
     if (first < n)
         PG_TRY (f->linear->solve (f->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
     s->report->linear.solves = solves;
@@ -127,7 +133,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     s->report->contact.columns += (long) n;
     PG_TRY (refine_columns (s, rhs, solved, n));
     /* nor are columns counted that a resumed run makes again */
-    if (c->compliance.again == f->revision + 1) s->report->contact.columns = columns;
+    if (again) s->report->contact.columns = columns;
     c->compliance.again = 0;
     for (size_t j = 0; j < n; j++)
         system_expand (s, solved + j * s->nred, c->compliance.Z + j * s->ndof);

@@ -244,7 +244,8 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (pg_keep_fields (k, "contact", "counts", NULL, 1, PG_ROWS (
         PG_KEPT_IN (n, c->pieces.n, c->pieces.n, "the number of pieces of cracks"),
         PG_KEPT_IN (active, 0, 1, "contact"), PG_KEPT (r->contact.passes), PG_KEPT (r->contact.sweeps),
-        PG_KEPT (c->is.touched), PG_KEPT (made), PG_KEPT (piece))));
+        PG_KEPT (c->is.touched), PG_KEPT (made),
+        PG_KEPT_IN (c->compliance.alone, 0, c->pieces.dim * n, "contact"), PG_KEPT (piece))));
     contact_set_active (s, active);
     if (k->reading) c->compliance.again = made ? s->direct.revision + 1 : 0;
     PG_TRY (contact_route_keep (s, k));
