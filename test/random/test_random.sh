@@ -29,8 +29,8 @@ else
     asked $images 46 2 || failed=1
 fi
 again="$images:121 $images:251 mirrored:98 mirrored:244 mirrored:589:facets mirrored:603:facets moved:313 moved:422 moved:549 sound:482 quarter_turned:609"
-again="$again carried:1297 soft_spring:324 solved_otherwise:618 on_ranks:832"
-[ "$PERIGAL_TEST_SIZE" != long ] || again="$images:69 $images:166 nudged:603:facets moved:387 moved:526 as_elements:522 as_elements:1421 soft_spring:1779 soft_spring:1989 falling:1988 moved:1919 solved_otherwise:670 mirrored:429 mirrored:1120 nudged:363 moved:907 moved:1574 $images:1644 mirrored:1775 $images:1130 on_ranks:1130 solved_otherwise:1130"
+again="$again carried:1297 soft_spring:324 solved_otherwise:618 on_ranks:832 resumed:963"
+[ "$PERIGAL_TEST_SIZE" != long ] || again="$images:69 $images:166 nudged:603:facets moved:387 moved:526 as_elements:522 as_elements:1421 soft_spring:1779 soft_spring:1989 falling:1988 moved:1919 solved_otherwise:670 mirrored:429 mirrored:1120 nudged:363 moved:907 moved:1574 $images:1644 mirrored:1775 $images:1130 on_ranks:1130 solved_otherwise:1130 resumed:1043"
 for one in $again; do
     IFS=: read -r what seed kind <<< "$one"
     asked "$what" "$seed" 1 "$kind" || failed=1
