@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long test-full stress random kills fresh fuzz mutate compilers lint doc accuracy fracture bench install clean
+# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long test-full stress random kills fresh fuzz mutate compilers lint doc accuracy fracture gallery bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -243,6 +243,10 @@ fracture: packages   ## grows cracks of known load and rewrites the tables of do
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
 	$(Q)bench/fracture $(BUILD) -j $(JOBS) $(T)
 
+gallery: packages    ## laboratory specimens with cracks, drawn at random, beside finite elements (SEED=n COUNT=n KIND=name); needs gmsh and calculix-ccx
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
+	$(Q)bench/gallery $(BUILD) SEED=$(or $(SEED),1) COUNT=$(or $(COUNT),10) KIND=$(KIND) JOBS=$(JOBS)
+
 accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites them (T="group group": of some)
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs $(ACCURACY:%=$(BUILD)/test/%)
 	$(Q)bench/accuracy $(BUILD) -j $(JOBS) $(T)
@@ -280,6 +284,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress random kills fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
+.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress random kills fresh fuzz mutate compilers lint doc accuracy fracture gallery bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/app/convert/perigal_mesh.d $(MPIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -52,7 +52,8 @@ typedef struct {
     const double *eta;                                 /* relative displacement, m (n x dim) */
     /* support radius of the bond or point over the horizon of the setting; NULL: 1 (n) */
     const double *reach;
-    const double *s1, *s3;  /* largest, smallest principal stress, means of both ends, Pa (n) */
+    /* principal stresses, largest first, means of both ends, Pa (n) */
+    const double *s1, *s2, *s3;
     /* gamma (1) and kappa (rad) of bonds that bear shear (n): perigal/sums.h */
     const double *shear, *bending;
     const double *energy;  /* energy density of a point, J/m^3 (n): at its limit all its bonds break */
@@ -104,7 +105,9 @@ struct pg_criterion_type {
     const pg_key_table *limits[5], *options[4];
     /* Fills c from the limits of the setting's material; errors are reported as errors of the scene. */
     pg_status (*read) (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
-    /* Computes the utilisation (n) of bonds or points; kind (n or NULL): 't' tension, 's' shear. */
+    /* Computes the utilisation (n) of bonds or points; kind (n or NULL): 't' tension, 's' shear. Of
+     * stresses it must be convex: at the mean of two states no larger than at one of them, as bonds are
+     * passed over by what their ends would have alone. */
     void (*utilisation) (const pg_criterion *c, const pg_bond_measures *m, double *utilisation, char *kind);
     /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of
      * load factor 1 and all loads are proportional (events, section 4). */

@@ -4,6 +4,7 @@
 PG_CRITERION (stretch)
 PG_CRITERION (principal_stress)
 PG_CRITERION (mohr_coulomb)
+PG_CRITERION (drucker_prager)
 PG_CRITERION (node_energy)
 PG_CRITERION (beam_limits)
 PG_CRITERION (energy_release)

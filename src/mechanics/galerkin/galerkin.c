@@ -29,7 +29,8 @@ static void galerkin_free (void **self)
     for (int s = 0; s < PG_BOND_SETS; s++) {
         pg_free (g->measured.strain[s]), pg_free (g->measured.stress[s]), pg_free (g->measured.zz[s]),
             pg_free (g->measured.u[s]);
-        pg_free (g->measured.s1[s]), pg_free (g->measured.s3[s]), pg_free (g->measured.seen[s]),
+        pg_free (g->measured.s1[s]), pg_free (g->measured.s2[s]), pg_free (g->measured.s3[s]),
+        pg_free (g->measured.seen[s]),
             pg_free (g->list[s]),
             pg_free (g->bounds.judged[s]);
         pg_free (g->bounds.alone[s]), pg_free (g->bounds.exact[s]), pg_free (g->bounds.bounded[s]);
@@ -75,6 +76,7 @@ static pg_status create_set (galerkin *g, int s)
     PG_ALLOC (m->zz[s], r->n);
     PG_ALLOC (m->u[s], r->n * dim);
     PG_ALLOC (m->s1[s], r->n);
+    PG_ALLOC (m->s2[s], r->n);
     PG_ALLOC (m->s3[s], r->n);
     PG_ALLOC (m->seen[s], g->n * dim);
     PG_ALLOC (m->disturbed[s], (r->n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK);

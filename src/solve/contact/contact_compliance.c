@@ -106,8 +106,8 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     /* many columns are worth a factor of the present K where an older one would only precondition; else the
      * first solve makes the factor if there is to be one */
     if (s->choice.mode == SYSTEM_KEPT_FACTOR && f->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
-    /* a resumed run remakes columns as they were made, one by one or together: they would differ in their last
-     * digits otherwise */
+    /* a resumed run remakes columns as they were made, one by one or together: they would differ in their
+     * last digits otherwise */
     int again = c->compliance.again == f->revision + 1;
     if (again && c->compliance.alone == 0 && !system_has_factor (s) && system_factors (s))
         PG_TRY (system_factorize (s, dyn));

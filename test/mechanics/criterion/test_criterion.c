@@ -3,6 +3,7 @@
  * mohr_coulomb {T, c, phi}. */
 #include "check.h"
 #include "perigal/criterion.h"
+#include <math.h>
 
 static unsigned long long seed = 4711;
 static double rnd (void)                               /* in (-1, 1) */
@@ -25,7 +26,8 @@ static double stress_use (const pg_criterion *c, double s1, double s3, char *kin
 {
     double u;
     char k;
-    const pg_bond_measures m = { .n = 1, .dim = 3, .s1 = &s1, .s3 = &s3 };
+    const double s2 = s3;
+    const pg_bond_measures m = { .n = 1, .dim = 3, .s1 = &s1, .s2 = &s2, .s3 = &s3 };
     c->type->utilisation (c, &m, &u, &k);
     if (kind) *kind = k;
     return u;
@@ -56,16 +58,63 @@ static void beams_break_by_energy (void **state)
     }
 }
 
-static void the_catalogue_lists_six (void **state)
+static void the_catalogue_lists_seven (void **state)
 {
     (void) state;
     assert_string_equal (pg_criterion_names (),
-                         "stretch|principal_stress|mohr_coulomb|node_energy|beam_limits|energy_release");
+                         "stretch|principal_stress|mohr_coulomb|drucker_prager|node_energy|beam_limits|"
+                         "energy_release");
     assert_null (pg_criterion_find ("energy"));
     assert_int_equal (pg_criterion_find ("stretch")->needs, PG_NEEDS_STRETCH);
     assert_int_equal (pg_criterion_find ("mohr_coulomb")->needs, PG_NEEDS_STRESS);
+    assert_int_equal (pg_criterion_find ("drucker_prager")->needs, PG_NEEDS_STRESS);
     assert_int_equal (pg_criterion_find ("node_energy")->needs, PG_NEEDS_ENERGY);
     assert_int_equal (pg_criterion_find ("beam_limits")->needs, PG_NEEDS_BEAMS);
+}
+
+static double cone_use (const pg_criterion *c, double s1, double s2, double s3, char *kind)
+{
+    double u, f;
+    const pg_bond_measures m = { .n = 1, .dim = 3, .s1 = &s1, .s2 = &s2, .s3 = &s3 };
+    c->type->utilisation (c, &m, &u, kind);
+    c->type->factor (c, &m, &f);
+    if (u > 0) check_relative (f * u, 1, 1e-12);
+    else assert_true (isinf (f));
+    return u;
+}
+
+/* The cone of Drucker and Prager goes through the compressive edges of Mohr-Coulomb's pyramid: where the
+ * two larger stresses are equal both criteria agree; elsewhere it bears more, by up to what pure shear
+ * shows. Without friction it is von Mises. */
+static void the_cone_touches_the_pyramid (void **state)
+{
+    (void) state;
+    char kind;
+    pg_criterion cone = rock (), pyramid = rock ();
+    cone.type = pg_criterion_find ("drucker_prager");
+    const double phi = pyramid.parameter[2], strength = 2 * 5e6 * cos (phi) / (1 - sin (phi));
+    check_relative (cone_use (&cone, 0, 0, -strength, &kind), 1, 1e-12);
+    assert_int_equal (kind, 's');
+    for (int k = 0; k < 200; k++) {
+        double low = -1e7 * (2 + rnd ()), high = low + 1e7 * (1 + rnd ()),
+               middle = low + (high - low) * 0.5 * (1 + rnd ());
+        if (high > 0) continue;
+        double edge = cone_use (&cone, high, high, low, NULL),
+               most = cone_use (&pyramid, high, high, low, NULL);
+        check_scaled (edge, most, 1e-12, 1);
+        assert_true (cone_use (&cone, high, middle, low, NULL)
+                     <= cone_use (&pyramid, high, middle, low, NULL) + 1e-12);
+    }
+    assert_true (cone_use (&cone, -1e6, -1e6, -1e6, NULL) == 0);
+    check_relative (cone_use (&cone, 0.25e6, 0, 0, &kind), 0.5, 1e-12);
+    assert_int_equal (kind, 't');
+    pg_criterion mises = make ("drucker_prager", 1e9, 5e6, 0);
+    for (int k = 0; k < 100; k++) {
+        double s[3] = { 3e6 + 1e6 * rnd (), 2e6 * rnd (), -3e6 + 1e6 * rnd () };
+        double equivalent = sqrt (0.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2])
+                                         + (s[2] - s[0]) * (s[2] - s[0])));
+        check_relative (cone_use (&mises, s[0], s[1], s[2], NULL), equivalent / 1e7, 1e-12);
+    }
 }
 
 /* Where spacings differ: limits by an energy per area go with horizon^(-1/2), a stretch that is given is the
@@ -285,7 +334,8 @@ static void description_names_the_constants (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_catalogue_lists_six), cmocka_unit_test (beams_break_by_energy),
+        cmocka_unit_test (the_catalogue_lists_seven),
+        cmocka_unit_test (the_cone_touches_the_pyramid), cmocka_unit_test (beams_break_by_energy),
         cmocka_unit_test (limits_follow_the_horizon_where_an_energy_gives_them),
         cmocka_unit_test (stretch_along_the_bond_counts_and_turning_does_not),
         cmocka_unit_test (finite_stretch_is_the_change_of_length),

@@ -46,10 +46,10 @@ typedef struct {
     double nitsche, penalty;                           /* factors of E / h, h the local spacing */
 } galerkin_options;
 /* Values of the last measure of a displacement field, for each bond set and point: strain and stress (Pa), nv
- * numbers; zz: stress across the plane, Pa; u: displacement, m; s1, s3: principal stresses, Pa. */
+ * numbers; zz: stress across the plane, Pa; u: displacement, m; s1, s2, s3: principal stresses, Pa. */
 typedef struct {
     double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];
-    double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
+    double  *s1[PG_BOND_SETS], *s2[PG_BOND_SETS], *s3[PG_BOND_SETS];
     double  *seen[PG_BOND_SETS];                       /* the displacement field measured (ndof) */
     /* fresh: 1: the values belong to `seen` and to the present shape functions, except in blocks of points
      * that are disturbed (1) */

@@ -13,7 +13,7 @@ void galerkin_principal (galerkin *g, int set, size_t p)
     galerkin_measured *m = &g->measured;
     double principal[3];
     pg_principal (g->dim, 1, m->stress[set] + p * (size_t) g->nv, m->zz[set] + p, principal);
-    m->s1[set][p] = principal[0], m->s3[set][p] = principal[2];
+    m->s1[set][p] = principal[0], m->s2[set][p] = principal[1], m->s3[set][p] = principal[2];
 }
 
 /* Judges some bonds by one criterion: utilisation, and the factor by which a proportional load may grow;
@@ -42,7 +42,7 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
     const galerkin *g = s->g;
     const int *node = g->rows[s->set].family.node, *own = g->problem->at.limit_of[s->set],
               *other = g->problem->at.limit_of[PG_NODES];
-    double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
+    double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s2[BATCH], s3[BATCH];
     size_t some[BATCH], count = 0, dim = (size_t) g->dim;
     for (size_t k = 0; k < m.n; k++) {
         if (own[point[k]] != material && other[node[bond[k]]] != material)
@@ -51,7 +51,7 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
             memcpy (xi + count * dim, m.xi + k * dim, dim * sizeof *xi),
                 memcpy (eta + count * dim, m.eta + k * dim, dim * sizeof *eta);
         if (m.reach) reach[count] = m.reach[k];
-        if (m.s1) s1[count] = m.s1[k], s3[count] = m.s3[k];
+        if (m.s1) s1[count] = m.s1[k], s2[count] = m.s2[k], s3[count] = m.s3[k];
         some[count++] = to[k];
     }
     m = (pg_bond_measures){ .n = count,
@@ -60,6 +60,7 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
                             .eta = m.xi ? eta : NULL,
                             .reach = m.reach ? reach : NULL,
                             .s1 = m.s1 ? s1 : NULL,
+                            .s2 = m.s1 ? s2 : NULL,
                             .s3 = m.s1 ? s3 : NULL };
     if (count) judge_by (s, &g->problem->at.limit[material], &m, some);
 }
@@ -106,7 +107,7 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
     size_t dim = (size_t) g->dim;
-    double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
+    double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s2[BATCH], s3[BATCH];
     int graded = g->problem->cloud.size != NULL;
     int needs = g->problem->criterion->type->needs, stretch = needs & PG_NEEDS_STRETCH,
         stress = needs & PG_NEEDS_STRESS;
@@ -123,6 +124,7 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
     for (size_t k = 0; stress && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         s1[k] = 0.5 * (g->measured.s1[s->set][p] + g->measured.s1[PG_NODES][j]);
+        s2[k] = 0.5 * (g->measured.s2[s->set][p] + g->measured.s2[PG_NODES][j]);
         s3[k] = 0.5 * (g->measured.s3[s->set][p] + g->measured.s3[PG_NODES][j]);
     }
     pg_bond_measures m = { .n = count,
@@ -131,6 +133,7 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
                            .eta = stretch ? eta : NULL,
                            .reach = graded ? reach : NULL,
                            .s1 = stress ? s1 : NULL,
+                           .s2 = stress ? s2 : NULL,
                            .s3 = stress ? s3 : NULL };
     if (material >= 0) {
         judge_by (s, &g->problem->at.limit[material], &m, to);

@@ -65,7 +65,7 @@ static void judge_alone (const bounding *c, size_t first, size_t last)
     for (size_t k = 0; k < g->problem->at.nlimit; k++) {
         const pg_criterion *law = &g->problem->at.limit[k];
         pg_bond_measures m = { .n = last - first, .dim = g->dim, .s1 = g->measured.s1[c->set] + first,
-            .s3 = g->measured.s3[c->set] + first };
+            .s2 = g->measured.s2[c->set] + first, .s3 = g->measured.s3[c->set] + first };
         law->type->utilisation (law, &m, out, NULL);
         for (size_t i = 0; i < m.n; i++)
             if (!exempt[first + i] && out[i] > alone[first + i]) alone[first + i] = out[i];
