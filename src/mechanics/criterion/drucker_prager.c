@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Drucker-Prager with tension cut-off on the mean of both ends (Drucker, Prager 1952), its cone through the
- * compressive edges of Mohr-Coulomb's pyramid: (sqrt J2 + a I1) / k, a = 2 sin phi / (sqrt 3 (3 - sin phi)), k =
- * 6 c cos phi / (sqrt 3 (3 - sin phi)). Without friction: von Mises at the equivalent stress 2 c. */
+ * compressive edges of Mohr-Coulomb's pyramid: (sqrt J2 + a I1) / k with a = 2 sin phi / q, k = 6 c cos phi / q,
+ * q = sqrt 3 (3 - sin phi). Without friction: von Mises at the equivalent stress 2 c. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -48,9 +48,10 @@ static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     double phi = c->parameter[ANGLE], strength = 2 * c->parameter[COHESION] * cos (phi) / (1 - sin (phi));
-    snprintf (text, size, "Drucker-Prager: tensile strength %.6g Pa, cohesion %.6g Pa, friction angle %.6g deg"
-              " (uniaxial compressive strength %.6g Pa)", c->parameter[STRENGTH], c->parameter[COHESION],
-              phi * 57.295779513082320877, strength);
+    snprintf (text, size,
+              "Drucker-Prager: tensile strength %.6g Pa, cohesion %.6g Pa, friction angle %.6g deg (uniaxial "
+              "compressive strength %.6g Pa)",
+              c->parameter[STRENGTH], c->parameter[COHESION], phi * 57.295779513082320877, strength);
 }
 
 const pg_criterion_type pg_criterion_drucker_prager = {
