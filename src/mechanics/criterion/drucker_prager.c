@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Drucker-Prager with tension cut-off on the mean of both ends (Drucker, Prager 1952), its cone through the
- * compressive edges of the Mohr-Coulomb pyramid: (sqrt J2 + a I1) / k, a = 2 sin phi / q, k = 6 c cos phi / q,
+ * compressive edges of Mohr-Coulomb: (sqrt J2 + a I1) / k, a = 2 sin phi / q, k = 6 c cos phi / q,
  * q = sqrt 3 (3 - sin phi). Without friction: von Mises at the equivalent stress 2 c. */
 #include "entries.h"
 #include <math.h>
