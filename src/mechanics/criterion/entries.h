@@ -29,8 +29,8 @@ enum { PG_LIMITS = 96 };                               /* bytes of a path such a
  * material: that of the material, else `failure`. Returns 0 if neither has it. */
 int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting,
                          const char *need);
-/* Returns a limit of the setting's material, SI; 0: it is missing. pg_criterion_never: 1: bonds that end in
- * this material never break. */
+/* Returns a limit of the setting's material, SI, or its default; 0: it is missing. pg_criterion_never: 1:
+ * bonds that end in this material never break. */
 double pg_criterion_limit  (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit);
 int    pg_criterion_never  (const pg_scene *scene, const pg_criterion_setting *setting);
 /* Reports limits that the n materials lack, and limits that would be ignored, as faults of the scene. type

@@ -43,8 +43,9 @@ int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_cr
 double pg_criterion_limit (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit)
 {
     char map[PG_LIMITS], path[PG_LIMITS + WORD];
-    if (!pg_criterion_holder (map, scene, setting, limit)) return 0;
+    int given = pg_criterion_holder (map, scene, setting, limit);
     double value = pg_scene_number (scene, "%s.%s", map, limit);
+    if (!given) return isnan (value) ? 0 : value;      /* its default, if the key has one */
     snprintf (path, sizeof path, "%s.%s", map, limit);
     if (!isnan (value)) return value;
     int of = pg_limit_of_place (limit);
