@@ -62,6 +62,7 @@ static void a_closed_crack_slides_as_in_theory (void **state)
         if (!longer () && i % 2 == 0) continue;
         double mean = 0;
         for (size_t k = some - 1; k < 5; k += some) {
+            if (!longer () && load[i].degrees == 60 && k < 3) continue;
             double K[2];
             pg_statistics s;
             const closed_lattice *at = &closed_lattices[k];

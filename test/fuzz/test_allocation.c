@@ -241,7 +241,7 @@ static void every_method_survives_every_failing_allocation (void **state)
         snprintf (text, sizeof text, PLATE, p->lattice, p->poisson, p->method, p->criterion,
                   timed ? moved : pulled, p->solver);
         printf ("# %s\n", p->name);
-        sweep (text, 1, 12);
+        sweep (text, 1, 6);
     }
 }
 
@@ -307,7 +307,7 @@ static void every_force_survives_with_every_solver (void **state)
             snprintf (text, sizeof text, PLATE, p->lattice, p->poisson, method, p->criterion,
                       solvers[s].timed ? moved : pulled, keys);
             printf ("# %s, %s\n", force, solver);
-            sweep_some (text, 1, 8, 0, &refused);
+            sweep_some (text, 1, 4, 0, &refused);
             swept += !refused, none += refused, all++;
         }
         assert_true (swept >= 3);
@@ -367,9 +367,9 @@ static const char interface_scene[] =
 static void growing_cracks_survive_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (interface_scene, 1, 20);
-    sweep (growing_scene, 1, 20);
-    sweep (starting_scene, 1, 20);
+    sweep (interface_scene, 1, 10);
+    sweep (growing_scene, 1, 10);
+    sweep (starting_scene, 1, 10);
 }
 
 /* Nodes of a mesh as a shape, a ring, and what is within it; Qhull's own memory is not swept. */

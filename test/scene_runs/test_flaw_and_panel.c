@@ -57,15 +57,15 @@ static void test_forces (void **unused)
 }
 
 /* Micropolar bonds: the crack leaves the corner upwards and becomes level one to three spacings above it
- * (0.27 to 0.28 m at all finer ones). */
+ * (0.27 to 0.28 m at all finer ones). Short: until it has left the corner, where it has turned already. */
 static void test_turn (void **unused)
 {
     (void) unused;
     static const char *const set[] = { "spacing=12.5 mm", "body[2].add.box.low=[0, -37.5 mm]",
                                        "sets.far.where=x <= 0.17 m" };
     run r = loaded ("data/l_panel/scene.yaml", sizeof set / sizeof *set, set);
-    double level[2] = { 0 }, n[2] = { 0 };
-    while (!pg_solver_done (r.solver, r.state)) {
+    double level[2] = { 0 }, n[2] = { 0 }, least = longer () ? 50 : 2;
+    while (!pg_solver_done (r.solver, r.state) && (longer () || n[1] < least)) {
         advance (&r);
         for (size_t b = 0; b < r.step.nbroken; b++) {
             const double *x = r.step.broken[b].place;
@@ -74,7 +74,7 @@ static void test_turn (void **unused)
         }
     }
     print_message ("%g, %g bonds about y = %.4g, %.4g m\n", n[0], n[1], level[0] / n[0], level[1] / n[1]);
-    check_below (50, n[1]);
+    check_below (least, n[1]);
     check_relative (level[0] / n[0], 0.254, 0.02);
     check_relative (level[1] / n[1], 0.275, 0.01);
     clear (&r);

@@ -14,11 +14,14 @@ from methods import methods
 
 SAMPLE = {'short': 0, 'long': 2500}       # at least so many cells
 LONGEST = 60
-# the first takes as long as two thirds of the others of the short sample together, each of the others as ten cells
+# the first takes as long as two thirds of the others of the short sample together, each of the others as five to ten cells
 DEAR = {'short': {'interrupted and resumed|in motion|galerkin, newmark', 'relaxation|3D|galerkin, adr', 'horizon|6 h, 3D|rkpm gauss, constant',
                   'facets in motion|2 threads for 1|fcbm, verlet', 'facets in motion|interrupted and resumed|gmpd, central',
-                  'facets in motion|strip|bond, verlet', 'linear solver|3D|bond, cholmod'}, 'long': set()}
-LEAST = {'short': 2, 'long': 4}             # cells of each condition
+                  'facets in motion|strip|bond, verlet', 'linear solver|3D|bond, cholmod', 'events until separation|plate|rkpm consistent linear',
+                  'linear solver|3D|bond, skyline', 'load|1e-06, 3D|gmpd volumetric', 'relaxation|3D|gmpd, relax', 'springs|hold the body, 3D|nosb gauss quadratic',
+                  'unloading and reversal|3D|nosb gauss quadratic', 'facets in motion|strip|galerkin, verlet', 'relaxation|3D|lps, adr', 'linear solver|3D|bond, auto',
+                  'fronts|2 threads for 1|rkpm consistent linear', 'facets in motion|strip|galerkin, newmark', 'mirror image|3D|rkpm gauss quadratic'}, 'long': set()}
+LEAST = {'short': 1, 'long': 4}             # cells of each condition
 
 
 def order(cell):

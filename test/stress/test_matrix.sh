@@ -1,6 +1,6 @@
 #!/bin/bash
 # test_matrix.sh BUILD: a sample of the matrix of conditions and methods (make stress), a check a condition; none may be wrong without a word.
-# PERIGAL_TEST_SIZE=short takes 2 cells of each condition at least, long (make test-full) 2500.
+# PERIGAL_TEST_SIZE=short takes a cell of each condition and of each method at least, long (make test-full) 2500.
 build=$1
 out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT

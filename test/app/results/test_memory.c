@@ -138,7 +138,7 @@ static void every_allocation_of_a_result_may_fail (void **state)
     size_t opened = pg_memory_calls () - start;
     check_ok (write_result (where, &r, 1));
     /* pictures take their time */
-    size_t calls = pg_memory_calls () - start - opened, stride = 1 + (calls - opened) / (longer () ? 25 : 12);
+    size_t calls = pg_memory_calls () - start - opened, stride = 1 + (calls - opened) / (longer () ? 25 : 6);
     assert_true (opened > 20 && calls > opened);
     for (size_t k = 1; k <= calls; k += k < opened ? 1 : stride) {
         run one = scene_of (1, "%soutput: {pictures: [damage]}\n", scenes[0].text);
@@ -198,7 +198,7 @@ static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void *
         size_t used = pg_memory_used (), failed = 0;
         pg_status status = PG_E_MEMORY;
         for (fail_at = 1; status != PG_OK;
-             fail_at += longer () ? 1 : 1 + fail_at / 16, failed++) {
+             fail_at += longer () ? 1 : 1 + fail_at / 5, failed++) {
             status = write_and_resume (where, text);
             if (status != PG_OK && status != PG_E_MEMORY)
                 print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());
@@ -208,7 +208,7 @@ static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void *
                              pg_memory_used () - used);
             assert_int_equal (pg_memory_used (), used);
         }
-        assert_true (failed > 40);
+        assert_true (failed > (longer () ? 40 : 20));
     }
     remove_folder (where);
 }

@@ -112,11 +112,15 @@ static void draw (thing *t, pg_picture_style style, image *m)
     open_image (m, path);
 }
 
+/* Short: every other combination of four things, so that any two of them go together in all ways. */
+static int taken (int k) { return longer () || ((k ^ k >> 1 ^ k >> 2 ^ k >> 3) & 1) == 0; }
+
 /* ---- claims -------------------------------------------------------------------------------------------- */
 static void the_body_ends_where_its_shapes_do (void **state)
 {
     (void) state;
     for (int k = 0; k < 16; k++) {
+        if (!taken (k)) continue;
         thing t;
         image m;
         int hole = k >> 1 & 1;
@@ -146,6 +150,7 @@ static void pixels_are_those_of_a_plain_search (void **state)
 {
     (void) state;
     for (int k = 0; k < 16; k++) {
+        if (!taken (k)) continue;
         thing t;
         double unit = k & 8 ? 1e-6 : 1e3, part = 0;
         make (&t, k & 1, 1, k >> 1 & 1, unit);
@@ -219,12 +224,13 @@ static void stairs_and_meshes_are_outlines_too (void **state)
 }
 
 /* Any linear displacement, also one that stretches cells to twice their size: no hole, and the area grows by
- * its determinant. */
+ * its determinant. Short: every other combination. */
 static void magnified_bodies_have_no_holes (void **state)
 {
     (void) state;
     static const double gradient[][4] = { { 1, 0, 0, 0.2 }, { 0.5, 0.8, 0, 0.1 }, { -0.3, 0.2, -0.2, 1.5 } };
     for (int k = 0; k < 12; k++) {
+        if (!longer () && (k % 3 + k / 3) % 2) continue;
         thing t;
         image rest, m;
         const double *g = gradient[k % 3];

@@ -558,6 +558,7 @@ static void test_runs (void **unused)
                                           "{kind: verlet, end: 3}" };
     for (int dim = 2; dim <= 3; dim++)
         for (int k = 0; k < 3; k++) {
+            if (!longer () && dim == 3 && k != 1) continue;            /* short: of a solid by fixed steps */
             run r[2];
             for (int threads = 1; threads <= 2; threads++) {
                 char text[1500];

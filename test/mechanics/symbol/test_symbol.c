@@ -311,7 +311,7 @@ static void the_volumetric_term_makes_any_poissons_ratio_stable (void **state)
     for (int t = 0; t < 6; t++) {
         lattice l;
         int dim = t < 3 ? 2 : 3;
-        if (dim == 3 && t % 3 != 1) continue;
+        if ((dim == 3 && t % 3 != 1) || (!longer () && t == 1)) continue;
         snprintf (more, sizeof more,
                   "%smaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: %g}}\n" CELLS,
                   dim == 2 ? "plane: strain\n" : "", nu[t % 3]);
@@ -467,7 +467,7 @@ static void each_allocation_may_fail (void **state)
         pg_symbol_free (&l.symbol);
         calls = pg_memory_calls () - before;
         assert_true (calls > 20);
-        for (size_t k = 1; k <= calls; k++) {
+        for (size_t k = 1; k <= calls; k += longer () || k < 20 ? 1 : 3) {
             pg_memory_fail_at (k);
             pg_status status = pg_symbol_create (&l.symbol, l.scene, l.problem);
             if (status == PG_OK) status = pg_symbol_survey (&again, l.symbol);
