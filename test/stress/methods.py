@@ -9,6 +9,7 @@ import subprocess
 # not offered, so that there are no cells of them; a criterion or a force that is not named here is paired with all.
 NOT_OFFERED = {('bond', 'principal_stress'), ('fcbm', 'principal_stress'), ('lps', 'principal_stress'), ('gmpd', 'principal_stress'),
                ('bond', 'mohr_coulomb'), ('fcbm', 'mohr_coulomb'), ('lps', 'mohr_coulomb'), ('gmpd', 'mohr_coulomb'),
+               ('bond', 'drucker_prager'), ('fcbm', 'drucker_prager'), ('lps', 'drucker_prager'), ('gmpd', 'drucker_prager'),
                ('galerkin', 'node_energy'), ('gmpd', 'node_energy'),
                ('galerkin', 'beam_limits'), ('bond', 'beam_limits'), ('fcbm', 'beam_limits'), ('lps', 'beam_limits')}
 BOND_POISSON = {('stress', 2): 1 / 3, ('strain', 2): 1 / 4, ('', 3): 1 / 4}

@@ -100,6 +100,7 @@ LIMITS = {
     'stretch': {'critical_stretch': 2e-3},
     'principal_stress': {'tensile_strength': 1e8},
     'mohr_coulomb': {'tensile_strength': 1e8, 'cohesion': 5e8, 'friction_angle': 0.7},
+    'drucker_prager': {'tensile_strength': 1e8, 'cohesion': 5e8, 'friction_angle': 0.7},
     'node_energy': {'fracture_energy': 1e5},
     'beam_limits': {'fracture_energy': 1e5},
     'energy_release': {'fracture_energy': 1e5},
