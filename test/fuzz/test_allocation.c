@@ -41,7 +41,7 @@ static const char dilating_scene[] = BLOCK
 
 static const char soft_scene[] = BLOCK
     "method: {gauss_points: 1, horizon: 1.5 spacing, essential: nitsche, dilatation: projected}\nfailure: "
-    "{criterion: principal_stress, tensile_strength: 1 MPa}\n"
+    "{criterion: drucker_prager, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 40 deg}\n"
     "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 "
     "mm}}]\nsolver: {stepping: fixed, steps: 2, break: all}\n";
 
