@@ -61,7 +61,7 @@ static void the_strip_takes_griffiths_load (void **state)
 {
     static const double shift[][2] = { { 0, 0 }, { 0.37, 0.40 }, { 0.10, -0.45 } };
     (void) state;
-    for (size_t k = 0; k < sizeof shift / sizeof *shift; k++) {
+    for (size_t k = longer () ? 0 : 1; k < sizeof shift / sizeof *shift; k++) {
         char from[64], to[64];
         snprintf (from, sizeof from, "cracks[0].from=[-0.02, %.17g]", shift[k][1] * H);
         snprintf (to, sizeof to, "cracks[0].to=[%.17g, %.17g]", 0.125 + shift[k][0] * H, shift[k][1] * H);

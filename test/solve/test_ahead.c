@@ -95,7 +95,8 @@ static void same (const char *plane, const char *cracks, const char *failure, co
 static void along_a_front (void **state)
 {
     (void) state;
-    same_run (scene_of (1, BLOCK, STRETCH, 40, "false"), scene_of (1, BLOCK, STRETCH, 40, "true"), 30, 0);
+    same_run (scene_of (1, BLOCK, STRETCH, longer () ? 40 : 24, "false"),
+              scene_of (1, BLOCK, STRETCH, longer () ? 40 : 24, "true"), longer () ? 30 : 18, 0);
 }
 
 static void one_tip_by_stretch (void **state)

@@ -78,7 +78,7 @@ static void a_kept_factor_gives_the_same_crack (void **state)
     static const char solver[] = STRIP "solver: {stepping: fixed, steps: 40, tolerance: 1e-11, break: "
                                        "fraction, break_fraction: 10 %%, linear: %s}\n";
     run a = scene_of (1, solver, "auto"), b = scene_of (1, solver, "cholmod");
-    compare (&a, &b, longer () ? 14 : 7, 1e-9);
+    compare (&a, &b, longer () ? 14 : 5, 1e-9);
     const pg_statistics *r = pg_solver_report (a.solver, a.state),
                         *plain = pg_solver_report (b.solver, b.state);
     print_message ("%ld bonds broken, %ld factorizations, %zu iterations; plain: %ld\n", r->broken,
