@@ -111,17 +111,18 @@ static void a_crack_begins_at_the_root_of_a_notch (void **state)
     double factor[2];
     for (int unit = 0; unit < 2; unit++) {
         double m = unit ? 1e-3 : 1;
-        run r = scene_of (1, "dimension: 3\nspacing: %.17g m\n"
-                             "body: [{add: {box: {low: [%.17g, 0, 0], high: [%.17g, %.17g, %.17g]}}}, "
-                             "{subtract: {cylinder: {center: [0, 0, %.17g], axis: [0, 0, 1], length: %.17g, "
-                             "radius: %.17g}}}]\n"
-                             "materials: {glass: {youngs_modulus: %g, poissons_ratio: %g}}\n"
-                             "failure: {criterion: energy_release, fracture_energy: %.17g, "
-                             "tensile_strength: 8 MPa}\nmethod: {horizon: 2.01 spacing}\n"
-                             "boundary: [{set: left, displacement: {x: \"-2e-3*(%.17g - y)\", y: 0, z: 0}}, "
-                             "{set: right, displacement: {x: \"2e-3*(%.17g - y)\", y: 0, z: 0}}]\n"
-                             "solver: {max_events: 1}\n", m, -side * m, side * m, 8 * m, depth * m, -m, (depth + 2) * m, 2 * m,
-                                 E, NU,
+        run r = scene_of (1,
+                          "dimension: 3\nspacing: %.17g m\n"
+                          "body: [{add: {box: {low: [%.17g, 0, 0], high: [%.17g, %.17g, %.17g]}}}, "
+                          "{subtract: {cylinder: {center: [0, 0, %.17g], axis: [0, 0, 1], length: %.17g, "
+                          "radius: %.17g}}}]\n"
+                          "materials: {glass: {youngs_modulus: %g, poissons_ratio: %g}}\n"
+                          "failure: {criterion: energy_release, fracture_energy: %.17g, "
+                          "tensile_strength: 8 MPa}\nmethod: {horizon: 2.01 spacing}\n"
+                          "boundary: [{set: left, displacement: {x: \"-2e-3*(%.17g - y)\", y: 0, z: 0}}, "
+                          "{set: right, displacement: {x: \"2e-3*(%.17g - y)\", y: 0, z: 0}}]\n"
+                          "solver: {max_events: 1}\n",
+                          m, -side * m, side * m, 8 * m, depth * m, -m, (depth + 2) * m, 2 * m, E, NU,
                           G0 * 1e3 * m, 4 * m, 4 * m);
         assert_int_equal (r.problem->crack.nfront, 0);
         while (r.state->events == 0 && !pg_solver_done (r.solver, r.state)) advance (&r);

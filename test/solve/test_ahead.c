@@ -102,7 +102,8 @@ static void along_a_front (void **state)
 static void one_tip_by_stretch (void **state)
 {
     (void) state;
-    same ("stress", EDGE, STRETCH, "integration: gauss", longer () ? 70 : 30, "worst", longer () ? 50 : 20, 0);
+    same ("stress", EDGE, STRETCH, "integration: gauss", longer () ? 70 : 30, "worst", longer () ? 50 : 20,
+          0);
     same ("stress", EDGE, STRETCH ", stretch: finite", "integration: gauss", longer () ? 20 : 12, "worst",
           longer () ? 10 : 6, 0);
 }
@@ -112,7 +113,8 @@ static void by_nodal_and_consistent_integration (void **state)
     (void) state;
     same ("strain", EDGE, STRETCH, "approximation: nosb, integration: nodal", longer () ? 40 : 16, "worst",
           longer () ? 20 : 10, 0);
-    same ("strain", EDGE, STRETCH, "integration: consistent", longer () ? 34 : 16, "worst", longer () ? 20 : 10, 0);
+    same ("strain", EDGE, STRETCH, "integration: consistent", longer () ? 34 : 16, "worst",
+          longer () ? 20 : 10, 0);
 }
 
 static void by_stresses (void **state)

@@ -172,8 +172,8 @@ static void damping_is_in_the_matrix (void **state)
     "layers: [{name: grip, side: bottom, thickness: 3 spacing}]\n"
 
 /* Explicit runs and relaxation with all shortcuts against none: the same bonds at the same steps, motion,
- * energies and reactions to rounding; forces by stencils, lists and transforms, bonds, states and beams. Short: every method with one
- * of the two solvers. */
+ * energies and reactions to rounding; forces by stencils, lists and transforms, bonds, states and beams.
+ * Short: every method with one of the two solvers. */
 static void explicit_runs_are_those_of_the_plain_path (void **state)
 {
     (void) state;

@@ -236,7 +236,8 @@ static void a_stage_without_new_loads_leaves_the_crack (void **state)
     (void) state;
     static const int drops[] = { 8, 12, 16, 20, 25, 30 };
     for (int l = 0; l < LAWS; l++)
-        for (size_t c = longer () ? 0 : (size_t) l % 2; c < sizeof drops / sizeof *drops; c += longer () ? 1 : 2) {
+        for (size_t c = longer () ? 0 : (size_t) l % 2; c < sizeof drops / sizeof *drops;
+             c += longer () ? 1 : 2) {
             run r = scene_of (1,
                               PLATE "%sboundary:\n" HELD
                                     " - {name: platen, set: top, displacement: {y: 20 um}}\n"

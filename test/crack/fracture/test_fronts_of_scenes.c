@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fronts in space as the program solves them, on lattices that lie askew to them (aligned ones show nothing):
- * penny-shaped cracks of three to four spacings under the exact field of an infinite body, and a semi-elliptical crack
- * on the face of a plate. PERIGAL_TEST_SIZE=long: eight spacings. More of them: make bench T=fronts. */
+ * Fronts in space as the program solves them, on lattices that lie askew to them (aligned ones show
+ * nothing): penny-shaped cracks of three to four spacings under the exact field of an infinite body, and a
+ * semi-elliptical crack on the face of a plate. PERIGAL_TEST_SIZE=long: eight spacings. More of them: make
+ * bench T=fronts. */
 #include "../../../bench/front_scenes.h"
 #include "check.h"
 

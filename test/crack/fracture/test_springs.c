@@ -23,7 +23,8 @@ static answer edge (double a, const char *method, const char *boundary)
                       "sets: {pin: {where: x > %.17g and abs(y) < %.17g}, beyond: {where: x > 0.45}}\n"
                       "boundary: [%s, {set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
                       "solver: {kind: static}\noutput: {at: {levels: 1}}\n",
-                      thickness, longer () ? -1 : -0.6, longer () ? 1 : 0.6, h, offset, a, method, 1 - 1.01 * h, 1.01 * h, boundary);
+                      thickness, longer () ? -1 : -0.6, longer () ? 1 : 0.6, h, offset, a, method,
+                      1 - 1.01 * h, 1.01 * h, boundary);
     answer out;
     const double one = 1;
     to_the_end (&r);

@@ -176,9 +176,9 @@ static size_t check_severed (const growing *g, int axis, double at)
     return severed;
 }
 
-/* Vertices that are distributed anew between a stretch that went ahead and one that stayed may lie a little
- * inside of the crack as the scene drew it: that is no crack that they meet. PERIGAL_TEST_SIZE=long: five times
- * as many trials. */
+/* Vertices that are distributed anew between a stretch that went ahead and one that stayed may lie a
+ * little inside of the crack as the scene drew it: that is no crack that they meet.
+ * PERIGAL_TEST_SIZE=long: five times as many trials. */
 static void what_stayed_behind_is_no_obstacle (void **state)
 {
     (void) state;
